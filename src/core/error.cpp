@@ -1,0 +1,20 @@
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+namespace twin {
+
+std::string to_string(const Error& error) {
+  std::string place = error.file;
+  if (error.line > 0) {
+    place += fmt::format("{}{}", place.empty() ? "line " : ":", error.line);
+    if (error.column > 0) {
+      place += fmt::format(":{}", error.column);
+    }
+  }
+  return place.empty() ? error.message : place + ": " + error.message;
+}
+
+int exit_status(const Error& error) noexcept { return error.code == ErrorCode::kUsage ? 2 : 1; }
+
+}  // namespace twin
