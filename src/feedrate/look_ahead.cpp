@@ -1,0 +1,230 @@
+#include "feedrate/look_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "feedrate/corner_limit.hpp"
+#include "feedrate/segment_limits.hpp"
+
+namespace twin::feedrate {
+namespace {
+
+constexpr double kPlaceRounding = 1e-9;  // [mm]
+constexpr double kStraight = 1e-7;       // turn that is none [rad]
+
+double turn_between(const Vec3& before, const Vec3& after) {
+  return std::atan2(before.cross(after).norm(), before.dot(after));
+}
+
+}  // namespace
+
+LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, int look_ahead,
+                     double period, Sink sink)
+    : limits_(limits),
+      model_(model),
+      look_ahead_(static_cast<std::size_t>(std::max(look_ahead, 2))),
+      period_(period),
+      sink_(std::move(sink)),
+      ramp_{limits.acceleration, limits.jerk},
+      envelope_(ramp_) {}
+
+void LookAhead::push(path::Segment&& segment) {
+  if (!window_.empty()) {
+    append_junction(window_.back(), segment);
+  }
+  append_segment_limits(segment, length_, model_, limits_, zones_);
+  length_ += segment.length;
+  window_.push_back(std::move(segment));
+  if (window_.size() >= look_ahead_) {
+    plan(false);
+  }
+}
+
+void LookAhead::finish() {
+  if (!window_.empty()) {
+    plan(true);
+  }
+}
+
+void LookAhead::append_junction(const path::Segment& before, const path::Segment& after) {
+  if (before.stops_at_end || after.length == 0.0) {
+    zones_.push_back({length_, length_, 0.0});
+    turns_.clear();
+    return;
+  }
+  const double turn = turn_between(before.end.tangent, after.begin.tangent);
+  if (turn < kStraight) {
+    return;
+  }
+  const double reach = limits_.feedrate * period_;
+  const double curvature =
+      std::max(curvature_near_end(before, true, reach), curvature_near_end(after, false, reach));
+  const double corner_error = std::min(before.corner_error, after.corner_error);
+  const double limit = std::min(
+      corner_model_feedrate(turn, corner_error, model_),
+      corner_acceleration_feedrate(turn, curvature, limits_.acceleration, period_));
+  zones_.push_back({length_, length_, limit});
+  limit_cluster(turn, length_);
+}
+
+/// Corners that one period may hold together count together: where the turns of several corners, over the distance l from
+/// the first to the last, sum to phi, the feedrate either keeps them apart (v T <= l) or obeys the corner rule for phi.
+void LookAhead::limit_cluster(double turn, double s) {
+  LimitZone& latest = zones_.back();
+  double sum = turn;
+  auto it = turns_.rbegin();
+  for (; it != turns_.rend() && s - it->s < latest.limit * period_; ++it) {
+    sum += it->angle;
+    const double together = corner_acceleration_feedrate(std::min(sum, M_PI), 0.0,
+                                                         limits_.acceleration, period_);
+    const double limit = std::max((s - it->s) / period_, together);
+    latest.limit = std::min(latest.limit, limit);
+    zones_[it->zone].limit = std::min(zones_[it->zone].limit, limit);
+  }
+  const double forget = s - limits_.feedrate * period_;
+  std::erase_if(turns_, [&](const Turn& old) { return old.s < forget; });
+  turns_.push_back({s, turn, zones_.size() - 1});
+}
+
+void LookAhead::plan(bool is_last) {
+  const auto from = std::find_if(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
+    return zone.end > start_.s + kPlaceRounding;
+  });
+  const std::span<const LimitZone> ahead(from, zones_.end());
+  const Knot end{length_, 0.0};
+  if (envelope_.plan(ahead, start_, end)) {
+    plan_ = envelope_.humps();
+  } else {
+    ++fallbacks_;
+    if (start_.v == 0.0) {  // from rest a single low limit can always be kept
+      std::vector<LimitZone> even(ahead.begin(), ahead.end());
+      double lowest = limits_.feedrate;
+      for (const LimitZone& zone : even) {
+        lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
+      }
+      for (LimitZone& zone : even) {
+        zone.limit = std::min(zone.limit, lowest);
+      }
+      envelope_.plan(even, start_, end);
+      plan_ = envelope_.humps();
+    } else {
+      commit(plan_.back().b);  // the last plan's way to rest, then on from there
+      plan(is_last);
+      return;
+    }
+  }
+  commit(commit_knot(is_last));
+  emit_covered(is_last);
+}
+
+/// Last place of the plan that the window's end does not slow down: a knot at its own limit or a hold under a cap. Where
+/// there is none, the last peak; where not even that, the start, and the window grows.
+Knot LookAhead::commit_knot(bool is_last) const {
+  if (is_last) {
+    return plan_.back().b;
+  }
+  const double latest = length_ - 4.0 * limits_.feedrate * period_;
+  Knot best = start_;
+  Knot peak = start_;
+  for (const Hump& hump : plan_) {
+    const double hold_begin = hump.a.s + hump.up;
+    const double hold_end = std::min(hump.b.s - hump.down, latest);
+    if (hold_end - hold_begin > kPlaceRounding) {
+      best = {hold_end, hump.peak};
+    } else if (hold_begin <= latest) {
+      peak = {hold_begin, hump.peak};
+    }
+    if (hump.b.is_at_limit && hump.b.s <= latest) {
+      best = hump.b;
+    }
+  }
+  return best.s > start_.s + kPlaceRounding ? best : peak;
+}
+
+void LookAhead::commit(const Knot& knot) {
+  std::size_t done = 0;
+  for (; done < plan_.size() && plan_[done].b.s <= knot.s + kPlaceRounding; ++done) {
+    append_phases(plan_[done], ramp_, phases_);
+  }
+  if (done < plan_.size() && knot.s > plan_[done].a.s + kPlaceRounding) {
+    Hump first = plan_[done];  // the knot lies at the end of its hold
+    first.b = knot;
+    first.down = 0.0;
+    append_phases(first, ramp_, phases_);
+    plan_[done].a = knot;
+    plan_[done].up = 0.0;
+  }
+  plan_.erase(plan_.begin(), plan_.begin() + static_cast<std::ptrdiff_t>(done));
+  start_ = knot;
+}
+
+void LookAhead::emit_covered(bool is_last) {
+  double begin = 0.0;
+  std::size_t next_phase = 0;
+  std::size_t next_zone = 0;
+  while (!window_.empty() &&
+         (is_last || begin + window_.front().length <= start_.s - kPlaceRounding)) {
+    PlannedSegment planned;
+    planned.segment = std::move(window_.front());
+    planned.index = next_index_++;
+    window_.pop_front();
+    const double end = begin + planned.segment.length;
+    take_phases(begin, end, next_phase, planned);
+    for (; next_zone < zones_.size() && zones_[next_zone].end <= end + kPlaceRounding; ++next_zone) {
+      const LimitZone& zone = zones_[next_zone];
+      planned.limits.push_back({zone.begin - begin, zone.end - begin, zone.limit});
+    }
+    begin = end;
+    sink_(std::move(planned));
+  }
+  forget(begin, next_phase, next_zone);
+}
+
+void LookAhead::take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned) {
+  if (planned.segment.length == 0.0) {
+    planned.phases.push_back({planned.segment.dwell, 0.0, 0.0, 0.0, 0.0});
+    return;
+  }
+  for (; next < phases_.size(); ++next) {
+    Phase phase = phases_[next];
+    const bool crosses = motion_at(phase, phase.duration).s > end + kPlaceRounding;
+    if (crosses) {
+      const double t = time_at(phase, end);
+      phases_[next] = remainder_after(phase, t);
+      phases_[next].s = end;
+      phase.duration = t;
+    }
+    phase.s -= begin;
+    planned.phases.push_back(phase);
+    if (crosses) {
+      break;
+    }
+  }
+}
+
+/// Drops what was handed on and measures everything from the new window's start.
+void LookAhead::forget(double begin, std::size_t phases, std::size_t zones) {
+  phases_.erase(phases_.begin(), phases_.begin() + static_cast<std::ptrdiff_t>(phases));
+  zones_.erase(zones_.begin(), zones_.begin() + static_cast<std::ptrdiff_t>(zones));
+  for (Phase& phase : phases_) {
+    phase.s -= begin;
+  }
+  for (LimitZone& zone : zones_) {
+    zone.begin -= begin;
+    zone.end -= begin;
+  }
+  std::erase_if(turns_, [&](const Turn& turn) { return turn.zone < zones; });
+  for (Turn& turn : turns_) {
+    turn.s -= begin;
+    turn.zone -= zones;
+  }
+  for (Hump& hump : plan_) {
+    hump.a.s -= begin;
+    hump.b.s -= begin;
+  }
+  start_.s -= begin;
+  length_ -= begin;
+}
+
+}  // namespace twin::feedrate

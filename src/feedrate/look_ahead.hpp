@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "core/limits.hpp"
+#include "feedrate/envelope.hpp"
+#include "feedrate/planned_segment.hpp"
+
+namespace twin::feedrate {
+
+/// Look-ahead: segments in, segments with feedrate out.
+///
+/// It keeps a window of up to `look_ahead` segments whose feedrate is not settled, plans them so that the path could
+/// end at rest at the window's end, and settles the part that more segments would not change:
+///
+///   settled | start ....... window ....... commit | braking to rest at the window's end
+///           ^ knot of the last plan               ^ last knot or hold that the end does not slow down
+///
+/// Since every plan ends at rest inside what is known, the settled part can always be followed by a feasible one:
+/// should a new plan fail, the rest of the last one is taken, which only costs time. The result depends on the segments
+/// alone, not on when they arrive.
+class LookAhead {
+ public:
+  using Sink = std::function<void(PlannedSegment&&)>;
+
+  /// @param look_ahead  segments in the window, >= 2
+  /// @param period      interpolation period, for the corner feedrates [s]
+  LookAhead(const Limits& limits, const PlanningModel& model, int look_ahead, double period,
+            Sink sink);
+
+  void push(path::Segment&& segment);
+  /// No more segments follow: the path ends at rest.
+  void finish();
+
+  /// How often the rest of an earlier plan had to be taken.
+  std::int64_t fallbacks() const noexcept { return fallbacks_; }
+
+ private:
+  void append_junction(const path::Segment& before, const path::Segment& after);
+  void limit_cluster(double turn, double s);
+  void plan(bool is_last);
+  Knot commit_knot(bool is_last) const;
+  void commit(const Knot& knot);
+  void emit_covered(bool is_last);
+  void take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
+  void forget(double begin, std::size_t phases, std::size_t zones);
+
+  struct Turn {
+    double s;      // place of the corner [mm]
+    double angle;  // [rad]
+    std::size_t zone;
+  };
+
+  Limits limits_;
+  PlanningModel model_;
+  std::size_t look_ahead_;
+  double period_;
+  Sink sink_;
+  RampLimits ramp_;
+  Envelope envelope_;
+
+  std::deque<path::Segment> window_;  // not yet handed on; window_[0] begins at s = 0
+  std::vector<LimitZone> zones_;      // of the window
+  std::vector<Turn> turns_;           // corners near the window's end
+  std::vector<Hump> plan_;            // last feasible plan from start_ to rest
+  std::vector<Phase> phases_;         // settled and not yet handed on
+  Knot start_;                        // where the next plan starts
+  double length_ = 0.0;               // of the window [mm]
+  std::int64_t next_index_ = 0;
+  std::int64_t fallbacks_ = 0;
+};
+
+}  // namespace twin::feedrate

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "feedrate/limit_zone.hpp"
+#include "feedrate/phase.hpp"
+#include "path/segment.hpp"
+
+namespace twin::feedrate {
+
+/// A segment with its feedrate: what the planning thread hands to the motion thread.
+struct PlannedSegment {
+  path::Segment segment;
+  std::int64_t index = 0;         ///< counted from 0
+  std::vector<Phase> phases;      ///< cover [0, segment.length]; s from the segment's start
+  std::vector<LimitZone> limits;  ///< feedrate limits, s from the segment's start
+};
+
+}  // namespace twin::feedrate

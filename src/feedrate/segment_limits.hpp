@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/limits.hpp"
+#include "feedrate/limit_zone.hpp"
+#include "path/segment.hpp"
+
+namespace twin::feedrate {
+
+/// Appends the feedrate limits inside one segment that begins at s0: where the curvature is, not over the whole curve.
+///
+/// A line has one zone, an arc one, a curve as many as its curvature needs: neighbouring zones whose limits differ by
+/// less than 1 % become one, with the lower limit.
+///
+/// @param s0  place of the segment's start [mm]
+void append_segment_limits(const path::Segment& segment, double s0, const PlanningModel& model,
+                           const Limits& limits, std::vector<LimitZone>& zones);
+
+/// Largest curvature of a segment near one of its ends, within a distance [1/mm].
+double curvature_near_end(const path::Segment& segment, bool at_end, double distance);
+
+}  // namespace twin::feedrate

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/limits.hpp"
+#include "core/path_settings.hpp"
+#include "gcode/block.hpp"
+#include "nurbs/fit.hpp"
+#include "path/run_fitter.hpp"
+#include "path/segment.hpp"
+
+namespace twin::path {
+
+/// Turns blocks into segments, one after the other, looking no further ahead than a curve needs.
+///
+/// Successive G01 blocks that meet the criterion for continuous short blocks (CSB, Section 2.1 of the paper) form a run;
+/// RunFitter makes curves of it. Every other block becomes the line, arc or rest that it is.
+class PathBuilder {
+ public:
+  using Sink = std::function<void(Segment&&)>;
+
+  PathBuilder(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
+              Sink sink);
+
+  /// Takes the next block; segments come out of the sink as soon as they are settled.
+  void push(const gcode::Block& block);
+  /// No more blocks follow.
+  void finish();
+
+ private:
+  bool is_short(const gcode::Block& block) const;
+  bool continues_run(const gcode::Block& block) const;
+
+  PathSettings settings_;
+  PlanningModel model_;
+  Limits limits_;
+  Sink sink_;
+  RunFitter run_;
+  gcode::Block last_;          // last block of the run
+  std::int64_t next_block_ = 0;
+};
+
+/// Line, arc or rest of a single block.
+Segment make_segment(const gcode::Block& block, std::int64_t number, const Limits& limits,
+                     const PlanningModel& model);
+
+}  // namespace twin::path

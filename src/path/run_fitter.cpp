@@ -1,0 +1,171 @@
+#include "path/run_fitter.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "nurbs/deviation.hpp"
+#include "path/curve_segment.hpp"
+#include "path/path_builder.hpp"
+
+namespace twin::path {
+namespace {
+
+constexpr std::size_t kJointPoints = 6;  // points on either side that settle a joint
+
+}  // namespace
+
+RunFitter::RunFitter(const PathSettings& settings, const PlanningModel& model,
+                     const Limits& limits, Sink sink)
+    : settings_(settings), model_(model), limits_(limits), sink_(std::move(sink)) {}
+
+double RunFitter::tolerance() const {
+  const double programmed = blocks_[first_].block.tolerance;
+  return programmed > 0.0 ? programmed : settings_.chord_error;
+}
+
+void RunFitter::push(const gcode::Block& block, std::int64_t number) {
+  if (blocks_.empty()) {
+    points_.push_back(block.start);
+  }
+  blocks_.push_back({block, number});
+  points_.push_back(block.end);
+  while (waiting() >= static_cast<std::size_t>(settings_.max_segments) + kJointPoints + 2) {
+    emit_piece(piece_length());
+  }
+}
+
+void RunFitter::finish() {
+  while (waiting() > 0) {
+    const bool is_fresh = first_ == 0 && !begin_.clamped;
+    if (is_fresh && waiting() < static_cast<std::size_t>(settings_.min_segments)) {
+      emit_lines(waiting());
+    } else {
+      emit_piece(piece_length());
+    }
+  }
+  advance_all();
+}
+
+/// Blocks in the next piece: up to max_segments of one feedrate, leaving no crumbs for the last one.
+std::size_t RunFitter::piece_length() const {
+  const auto most = static_cast<std::size_t>(settings_.max_segments);
+  const auto least = static_cast<std::size_t>(settings_.min_segments);
+  std::size_t count = std::min(waiting(), most);
+  if (const std::size_t rest = waiting() - count; rest > 0 && rest < least && count > 2 * least) {
+    count -= least - rest;
+  }
+  const double feedrate = blocks_[first_].block.feedrate;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (blocks_[first_ + i].block.feedrate != feedrate) {
+      return i;
+    }
+  }
+  return count;
+}
+
+void RunFitter::emit_piece(std::size_t count) {
+  nurbs::EndCondition end;
+  const std::size_t joint = first_ + count;
+  if (joint < blocks_.size()) {
+    const std::size_t from = joint - std::min(joint, kJointPoints);
+    const std::size_t to = std::min(joint + kJointPoints, blocks_.size());
+    end = nurbs::joint_condition(fitter_, std::span(points_).subspan(from, to - from + 1),
+                                 joint - from);
+  }
+  std::size_t worst = 0;
+  if (emit_curve(count, end, worst)) {
+    begin_ = end;
+    advance(count);
+  } else {
+    emit_broken(worst);
+  }
+}
+
+/// The curve leaves the tolerance in block `worst`: that one stays a line, what is before it ends there.
+void RunFitter::emit_broken(std::size_t worst) {
+  std::size_t before = worst;
+  while (before > 0) {
+    std::size_t again = 0;
+    const bool is_enough =
+        begin_.clamped || before >= static_cast<std::size_t>(settings_.min_segments);
+    if (is_enough && emit_curve(before, {}, again)) {
+      advance(before);
+      break;
+    }
+    before = is_enough ? std::min(again, before - 1) : 0;
+  }
+  emit_lines(worst - before + 1);
+}
+
+bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, std::size_t& worst) {
+  const auto points = std::span<const Vec3>(points_).subspan(first_, count + 1);
+  FittedCurve fitted;
+  worst = 0;
+  if (!fitter_.fit(points, begin_, end, fitted.curve)) {
+    return false;
+  }
+  const std::span<const double> parameters(fitter_.parameters());
+  if (nurbs::deviation_bound(fitted.curve, points, parameters) > tolerance()) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double deviation =
+          nurbs::deviation_bound(fitted.curve, points.subspan(i, 2), parameters.subspan(i, 2));
+      if (deviation > largest) {
+        largest = deviation;
+        worst = i;
+      }
+    }
+    return false;
+  }
+  measure(fitted);
+  Segment segment = make_curve_segment(std::move(fitted));
+  segment.feedrate = std::min(blocks_[first_].block.feedrate, limits_.feedrate);
+  segment.corner_error = blocks_[first_].block.tolerance > 0.0 ? blocks_[first_].block.tolerance
+                                                               : model_.corner_error;
+  const auto& curve = std::get<FittedCurve>(segment.geometry);
+  segment.marks.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const RunBlock& run = blocks_[first_ + i];
+    const double s = i + 1 < count ? curve.arc_length.s_at(curve.curve, parameters[i + 1])
+                                   : segment.length;
+    segment.marks.push_back({s, run.number, run.block.line});
+  }
+  sink_(std::move(segment));
+  return true;
+}
+
+void RunFitter::emit_lines(std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const RunBlock& run = blocks_[first_ + i];
+    sink_(make_segment(run.block, run.number, limits_, model_));
+  }
+  first_ += count;
+  forget_settled(0);
+  begin_ = {};
+}
+
+/// Marks blocks as settled; the last few stay for the next joint.
+void RunFitter::advance(std::size_t count) {
+  first_ += count;
+  forget_settled(kJointPoints);
+}
+
+void RunFitter::forget_settled(std::size_t keep) {
+  if (first_ <= keep) {
+    return;
+  }
+  const auto drop = static_cast<std::ptrdiff_t>(first_ - keep);
+  blocks_.erase(blocks_.begin(), blocks_.begin() + drop);
+  points_.erase(points_.begin(), points_.begin() + drop);
+  first_ = keep;
+}
+
+void RunFitter::advance_all() {
+  blocks_.clear();
+  points_.clear();
+  first_ = 0;
+  begin_ = {};
+}
+
+}  // namespace twin::path

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/limits.hpp"
+#include "core/path_settings.hpp"
+#include "gcode/block.hpp"
+#include "nurbs/fit.hpp"
+#include "path/segment.hpp"
+
+namespace twin::path {
+
+/// Fits one run of continuous short blocks by successive curves that join with continuous tangent and curvature.
+///
+/// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks, each as soon as a few
+/// more points are known. At the joint of two pieces both are given the same first and second derivative with respect to
+/// chord length: those of the interpolating curve through the points around the joint. The influence of a
+/// point on an interpolating cubic falls by about 0.27 a point, so a handful of points settles the joint.
+///
+/// A piece that leaves the chord tolerance somewhere is cut there: the block it leaves stays a line.
+class RunFitter {
+ public:
+  using Sink = std::function<void(Segment&&)>;
+
+  RunFitter(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
+            Sink sink);
+
+  bool is_empty() const noexcept { return blocks_.size() == first_; }
+
+  /// Appends a block that continues the run (or begins it).
+  void push(const gcode::Block& block, std::int64_t number);
+  /// The run ends: everything left comes out.
+  void finish();
+
+ private:
+  struct RunBlock {
+    gcode::Block block;
+    std::int64_t number;
+  };
+
+  std::size_t waiting() const noexcept { return blocks_.size() - first_; }
+  std::size_t piece_length() const;
+  double tolerance() const;
+  void emit_piece(std::size_t count);
+  bool emit_curve(std::size_t count, const nurbs::EndCondition& end, std::size_t& worst);
+  void emit_lines(std::size_t count);
+  void emit_broken(std::size_t worst);
+  void advance(std::size_t count);
+  void forget_settled(std::size_t keep);
+  void advance_all();
+
+  PathSettings settings_;
+  PlanningModel model_;
+  Limits limits_;
+  Sink sink_;
+  nurbs::Fitter fitter_;
+  std::vector<RunBlock> blocks_;  // [0, first_) are settled and kept for the next joint only
+  std::vector<Vec3> points_;      // start of blocks_[0] and the end of each block
+  std::size_t first_ = 0;
+  nurbs::EndCondition begin_;     // of the next piece
+};
+
+}  // namespace twin::path

@@ -1,0 +1,36 @@
+#include "path/short_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace twin::path {
+
+double critical_corner_angle(double feedrate, double corner_error, const PlanningModel& model) {
+  const double argument = model.kp / (1.0 - model.kf) * corner_error / feedrate;
+  return argument >= 1.0 ? 0.0 : 2.0 * std::acos(argument);
+}
+
+double corner_angle(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
+  const Vec3 a = p0 - p1;
+  const Vec3 b = p2 - p1;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double bi_chord_error(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
+  const Vec3 a = p1 - p0;
+  const Vec3 b = p2 - p1;
+  if (a.dot(b) <= 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double longer = std::sqrt(std::max(a.squaredNorm(), b.squaredNorm()));
+  const double twice_area = a.cross(b).norm();
+  if (twice_area == 0.0) {
+    return 0.0;
+  }
+  const double radius = a.norm() * b.norm() * (p2 - p0).norm() / (2.0 * twice_area);
+  const double half = 0.5 * longer;
+  return half * half / (radius + std::sqrt(std::max(radius * radius - half * half, 0.0)));
+}
+
+}  // namespace twin::path
