@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nurbs/cross.hpp"
 #include "nurbs/gauss_legendre.hpp"
 
 namespace twin::nurbs {
@@ -51,9 +52,9 @@ bool is_smooth(const Quartic& q, double half) noexcept {
 /// Curvature at x = -1, -1/2, 0, 1/2: C' x C'' = (d0 x d1 + 2 x (d0 x d2) + x^2 (d1 x d2)) / h.
 void sample_cubic(const Tangent& c, const Quartic& q, double centre, double half,
                   const std::array<double, 4>& s, std::vector<CurvatureSample>& samples) {
-  const Vec3 a = c.d0.cross(c.d1) / half;
-  const Vec3 b = c.d0.cross(c.d2) * (2.0 / half);
-  const Vec3 d = c.d1.cross(c.d2) / half;
+  const Vec3 a = cross(c.d0, c.d1) / half;
+  const Vec3 b = cross(c.d0, c.d2) * (2.0 / half);
+  const Vec3 d = cross(c.d1, c.d2) / half;
   for (int k = 0; k < 4; ++k) {
     const double x = 0.5 * k - 1.0;
     const double square = value(q, x);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "nurbs/basis.hpp"
+#include "nurbs/cross.hpp"
 
 namespace twin::nurbs {
 namespace {
@@ -84,7 +85,7 @@ Vec3 position_of_degree(const SpanView& span, double u) noexcept {
 double curvature(const Derivatives& at) noexcept {
   const double speed_squared = at.first.squaredNorm();
   const double cubed = speed_squared * std::sqrt(speed_squared);
-  return cubed > 0.0 ? at.first.cross(at.second).norm() / cubed : 0.0;
+  return cubed > 0.0 ? cross(at.first, at.second).norm() / cubed : 0.0;
 }
 
 Derivatives evaluate_derivatives(int degree, const SpanView& span, double u) noexcept {
