@@ -1,5 +1,6 @@
 #include "feedrate/look_ahead.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>

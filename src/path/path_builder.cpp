@@ -33,7 +33,7 @@ Segment make_segment(const gcode::Block& block, std::int64_t number, const Limit
     segment.end = point_at(line, segment.length);
     segment.geometry = line;
   }
-  segment.marks.push_back({segment.length, number, block.line});
+  segment.marks.push_back({segment.length, segment.length, number, block.line});
   return segment;
 }
 

@@ -129,7 +129,7 @@ bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, st
     const RunBlock& run = blocks_[first_ + i];
     const double s = i + 1 < count ? curve.arc_length.s_at(curve.curve, parameters[i + 1])
                                    : segment.length;
-    segment.marks.push_back({s, run.number, run.block.line});
+    segment.marks.push_back({s, (run.block.end - run.block.start).norm(), run.number, run.block.line});
   }
   sink_(std::move(segment));
   return true;

@@ -40,6 +40,7 @@ struct FittedCurve {
 /// Where a block of the program ends on a segment.
 struct BlockMark {
   double end = 0.0;        ///< arc length from the segment's start [mm]
+  double length = 0.0;     ///< length of the block as programmed [mm]
   std::int64_t block = 0;  ///< number of the block, counted from 0
   std::int64_t line = 0;   ///< its NC line
 };

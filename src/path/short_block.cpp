@@ -1,5 +1,6 @@
 #include "path/short_block.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,0 +1,66 @@
+#include "runtime/planning.hpp"
+
+#include <utility>
+
+#include "feedrate/look_ahead.hpp"
+#include "path/path_builder.hpp"
+
+namespace twin::runtime {
+namespace {
+
+void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
+  const path::Segment& segment = planned.segment;
+  for (const feedrate::Phase& phase : planned.phases) {
+    figures.time += phase.duration;
+  }
+  figures.path_length += segment.length;
+  if (std::holds_alternative<path::Line>(segment.geometry)) {
+    ++figures.lines;
+  } else if (std::holds_alternative<path::Arc>(segment.geometry)) {
+    ++figures.arcs;
+  } else if (std::holds_alternative<path::FittedCurve>(segment.geometry)) {
+    ++figures.curves;
+    for (const path::BlockMark& mark : segment.marks) {
+      figures.short_length.add(mark.length);
+    }
+  }
+}
+
+}  // namespace
+
+Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
+                                   bool fits_curves,
+                                   const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
+  PlanFigures figures;
+  bool goes_on = true;
+  feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path.look_ahead,
+                                 machine.period, [&](feedrate::PlannedSegment&& planned) {
+                                   count(planned, figures);
+                                   goes_on = goes_on && sink(std::move(planned));
+                                 });
+  PathSettings settings = machine.path;
+  settings.short_block_length = fits_curves ? settings.short_block_length : 0.0;
+  path::PathBuilder builder(settings, machine.planning, machine.limits,
+                            [&](path::Segment&& segment) {
+                              look_ahead.push(std::move(segment));
+                            });
+  while (goes_on) {
+    auto block = reader.next();
+    if (!block) {
+      return tl::unexpected(block.error());
+    }
+    if (!block->has_value()) {
+      break;
+    }
+    figures.blocks += (*block)->motion == gcode::Motion::kDwell ? 0 : 1;
+    builder.push(**block);
+  }
+  if (goes_on) {
+    builder.finish();
+    look_ahead.finish();
+  }
+  figures.fallbacks = look_ahead.fallbacks();
+  return figures;
+}
+
+}  // namespace twin::runtime

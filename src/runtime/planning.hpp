@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "config/machine_file.hpp"
+#include "core/error.hpp"
+#include "feedrate/planned_segment.hpp"
+#include "gcode/reader.hpp"
+#include "metrics/running.hpp"
+
+namespace twin::runtime {
+
+/// What planning counts on its way.
+struct PlanFigures {
+  std::int64_t blocks = 0;        ///< blocks of the program that move
+  metrics::Running short_length;  ///< lengths of the continuous short blocks, fitted by curves [mm]
+  std::int64_t curves = 0;
+  std::int64_t lines = 0;
+  std::int64_t arcs = 0;
+  double path_length = 0.0;       ///< along the segments [mm]
+  double time = 0.0;              ///< planned time [s]
+  std::int64_t fallbacks = 0;     ///< plans that had to take the rest of an earlier one
+};
+
+/// The whole planning chain, text to planned segments: Reader, PathBuilder, LookAhead.
+///
+/// @param sink  takes each planned segment; returns false to stop
+Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
+                                   bool fits_curves,
+                                   const std::function<bool(feedrate::PlannedSegment&&)>& sink);
+
+}  // namespace twin::runtime

@@ -1,0 +1,88 @@
+#include "runtime/program_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "metrics/block_distance.hpp"
+
+namespace twin::runtime {
+namespace {
+
+constexpr double kRounding = 1e-9;  // [mm]
+
+void include(const Vec3& point, Vec3& low, Vec3& high) {
+  low = low.cwiseMin(point);
+  high = high.cwiseMax(point);
+}
+
+/// Corners of the box of one block. An arc reaches furthest along an axis where its tangent has no part along it.
+void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
+  include(block.end, low, high);
+  if (block.motion != gcode::Motion::kArc) {
+    return;
+  }
+  const gcode::ArcGeometry& arc = block.arc;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double first = std::atan2(arc.e2[axis], arc.e1[axis]);
+    for (double angle = first - 2.0 * std::numbers::pi; angle < arc.sweep;
+         angle += std::numbers::pi) {
+      if (angle > 0.0) {
+        include(metrics::point_at(block, angle / arc.sweep), low, high);
+      }
+    }
+  }
+}
+
+Expected<void> check_travel(const gcode::Block& block, const Vec3& low, const Vec3& high,
+                            const Limits& limits, const std::string& file) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_low = low[axis] < limits.travel_min[axis] - kRounding;
+    if (is_low || high[axis] > limits.travel_max[axis] + kRounding) {
+      const double limit = is_low ? limits.travel_min[axis] : limits.travel_max[axis];
+      const double place = is_low ? low[axis] : high[axis];
+      return tl::unexpected(Error{
+          ErrorCode::kProgram,
+          fmt::format("axis {} would go to {:.4f} mm, its travel ends at {:g} mm; nothing was moved",
+                      "XYZ"[axis], place, limit),
+          file, static_cast<int>(block.line), 0});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<ProgramFigures> check_program(const std::filesystem::path& program,
+                                       const gcode::ReaderOptions& options, const Limits& limits) {
+  auto reader = gcode::Reader::open(program.string(), options);
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  ProgramFigures figures;
+  figures.box_min = figures.box_max = options.start;
+  for (;;) {
+    auto block = reader->next();
+    if (!block) {
+      return tl::unexpected(block.error());
+    }
+    if (!block->has_value()) {
+      break;
+    }
+    include_block(**block, figures.box_min, figures.box_max);
+    if (auto inside = check_travel(**block, figures.box_min, figures.box_max, limits,
+                                   program.string());
+        !inside) {
+      return tl::unexpected(inside.error());
+    }
+    if ((*block)->motion != gcode::Motion::kDwell) {
+      ++figures.blocks;
+      figures.length += metrics::block_length(**block, metrics::View::kSpace);
+    }
+  }
+  figures.lines = reader->line();
+  return figures;
+}
+
+}  // namespace twin::runtime

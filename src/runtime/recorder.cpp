@@ -1,0 +1,111 @@
+#include "runtime/recorder.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace twin::runtime {
+
+Expected<Recorder> Recorder::create(const Options& options) {
+  auto reader = gcode::Reader::open(options.program.string(), options.reader);
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  auto trace = trace::CsvWriter::create(
+      options.directory, options.has_machine ? trace::Layout::kRun : trace::Layout::kPlan);
+  if (!trace) {
+    return tl::unexpected(trace.error());
+  }
+  auto limit = trace::LimitWriter::create(options.directory / "plots");
+  if (!limit) {
+    return tl::unexpected(limit.error());
+  }
+  return Recorder(options, std::move(*reader), std::move(*trace), std::move(*limit));
+}
+
+Recorder::Recorder(const Options& options, gcode::Reader&& reader, trace::CsvWriter&& trace,
+                   trace::LimitWriter&& limit)
+    : options_(options),
+      reader_(std::move(reader)),
+      trace_(std::move(trace)),
+      limit_(std::move(limit)),
+      in_space_(metrics::View::kSpace),
+      along_z_(metrics::View::kAlongZ),
+      audit_(options.period, options.limits) {}
+
+/// Reads on until no further block can change what the trackers say of this block.
+Expected<void> Recorder::read_ahead(std::int64_t block) {
+  while (!program_ended_ && !(in_space_.is_ready(block) && along_z_.is_ready(block))) {
+    auto next = reader_.next();
+    if (!next) {
+      return tl::unexpected(next.error());
+    }
+    if (!next->has_value()) {
+      program_ended_ = true;
+      break;
+    }
+    in_space_.add(**next);
+    if (options_.has_machine) {
+      along_z_.add(**next);
+    }
+  }
+  return {};
+}
+
+Expected<void> Recorder::take(const trace::Sample& sample) {
+  if (auto ready = read_ahead(sample.block); !ready) {
+    return ready;
+  }
+  in_space_.follow(sample.block, sample.command);
+  command_error_.add(in_space_.nearest(sample.command).distance);
+  audit_.add(sample.command);
+  double contour_error = 0.0;
+  if (options_.has_machine) {
+    along_z_.follow(sample.block, sample.command);
+    contour_error = along_z_.nearest({sample.encoder.x(), sample.encoder.y(), 0.0}).distance;
+    contour_error_.add(contour_error);
+    table_error_.add(along_z_.nearest({sample.table.x(), sample.table.y(), 0.0}).distance);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      tracking_error_[static_cast<std::size_t>(i)].add(
+          std::abs(sample.command[i] - sample.encoder[i]));
+    }
+    cycle_time_.add(sample.cycle_time);
+  }
+  ++samples_;
+  last_ = sample;
+  if (auto written = limit_.write(sample.t, sample.feedrate_limit); !written) {
+    return written;
+  }
+  return trace_.write(sample, contour_error);
+}
+
+void Recorder::summarise(metrics::Summary& summary) {
+  const auto figures = [](const metrics::Running& error) {
+    return metrics::ErrorFigures{error.max(), error.rms()};
+  };
+  summary.command_contour_error = figures(command_error_);
+  summary.audit = audit_.finish();
+  if (!options_.has_machine) {
+    return;
+  }
+  metrics::MachineFigures run;
+  run.machining_time = last_.t;
+  run.contour_error = figures(contour_error_);
+  run.table_contour_error = figures(table_error_);
+  run.tracking_error = {figures(tracking_error_[0]), figures(tracking_error_[1])};
+  run.cycle_time = {cycle_time_.quantile(0.5), cycle_time_.quantile(0.99), cycle_time_.max()};
+  summary.run = run;
+}
+
+Expected<void> Recorder::commit() {
+  if (auto done = limit_.commit(); !done) {
+    return done;
+  }
+  return trace_.commit();
+}
+
+void Recorder::abandon() noexcept {
+  limit_.abandon();
+  trace_.abandon();
+}
+
+}  // namespace twin::runtime

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/limits.hpp"
+#include "gcode/reader.hpp"
+#include "metrics/contour_tracker.hpp"
+#include "metrics/limit_audit.hpp"
+#include "metrics/log_histogram.hpp"
+#include "metrics/running.hpp"
+#include "metrics/summary.hpp"
+#include "trace/csv_writer.hpp"
+#include "trace/limit_writer.hpp"
+
+namespace twin::runtime {
+
+/// Turns the stream of samples into the trace and the figures of the summary, in bounded memory.
+///
+/// For the contour error it reads the program a second time by itself, as far ahead of the samples as it needs, so
+/// that its result does not depend on how far the planner happens to be.
+class Recorder {
+ public:
+  struct Options {
+    std::filesystem::path directory;  ///< of the results; exists
+    std::filesystem::path program;
+    gcode::ReaderOptions reader;
+    Limits limits;
+    double period = 0.001;     ///< [s]
+    bool has_machine = true;   ///< else only set points are recorded
+  };
+
+  static Expected<Recorder> create(const Options& options);
+
+  /// Takes the next sample.
+  Expected<void> take(const trace::Sample& sample);
+
+  /// Puts the figures of the samples so far into a summary.
+  void summarise(metrics::Summary& summary);
+
+  /// Gives the files their names, or leaves them named as partial.
+  Expected<void> commit();
+  void abandon() noexcept;
+
+  std::int64_t samples() const noexcept { return samples_; }
+  const trace::Sample& last() const noexcept { return last_; }
+
+ private:
+  Recorder(const Options& options, gcode::Reader&& reader, trace::CsvWriter&& trace,
+           trace::LimitWriter&& limit);
+
+  Expected<void> read_ahead(std::int64_t block);
+
+  Options options_;
+  gcode::Reader reader_;
+  bool program_ended_ = false;
+  trace::CsvWriter trace_;
+  trace::LimitWriter limit_;
+  metrics::ContourTracker in_space_;
+  metrics::ContourTracker along_z_;
+  metrics::LimitAudit audit_;
+  metrics::Running command_error_;
+  metrics::Running contour_error_;
+  metrics::Running table_error_;
+  std::array<metrics::Running, 2> tracking_error_;
+  metrics::LogHistogram cycle_time_;
+  std::int64_t samples_ = 0;
+  trace::Sample last_{};
+};
+
+}  // namespace twin::runtime

@@ -1,0 +1,266 @@
+#include "runtime/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "runtime/motion.hpp"
+#include "runtime/planning.hpp"
+#include "runtime/program_check.hpp"
+#include "runtime/recorder.hpp"
+
+namespace twin::runtime {
+namespace {
+
+constexpr std::size_t kSampleBuffer = 16384;
+
+/// Configures and activates a machine; whatever happens, it is left with 0 V and servo off.
+class ActiveMachine {
+ public:
+  explicit ActiveMachine(hal::Machine* machine) : machine_(machine) {}
+  ActiveMachine(const ActiveMachine&) = delete;
+  ActiveMachine& operator=(const ActiveMachine&) = delete;
+  ~ActiveMachine() {
+    if (machine_ != nullptr) {
+      machine_->deactivate();
+      machine_->cleanup();
+    }
+  }
+  Expected<void> start(double period) {
+    if (machine_ == nullptr) {
+      return {};
+    }
+    if (auto configured = machine_->configure(period); !configured) {
+      return configured;
+    }
+    return machine_->activate();
+  }
+
+ private:
+  hal::Machine* machine_;
+};
+
+/// One run: its threads and what they share.
+class Run {
+ public:
+  Run(const RunRequest& request, const ProgramFigures& program, Recorder&& recorder)
+      : request_(request),
+        program_(program),
+        recorder_(std::move(recorder)),
+        segments_(static_cast<std::size_t>(request.machine.path.look_ahead)),
+        samples_(kSampleBuffer),
+        interpolator_(segments_, request.machine.period),
+        cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period) {}
+
+  Expected<RunResult> execute();
+
+ private:
+  void plan(gcode::Reader reader);
+  void move();
+  void record();
+  std::optional<Error> failure() const;
+  void report_progress();
+  metrics::Summary summarise(double wall_time);
+
+  const RunRequest& request_;
+  const ProgramFigures& program_;
+  Recorder recorder_;
+  SegmentQueue segments_;
+  SampleQueue samples_;
+  interpolator::Interpolator interpolator_;
+  Cycle cycle_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> has_ended_{false};
+  PlanFigures plan_figures_;              // written by the planning thread, read after its end
+  std::optional<Error> plan_error_;       // the same
+  MotionEnd motion_end_ = MotionEnd::kDone;  // written by the motion thread, read after its end
+  std::optional<Error> record_error_;
+  int shown_percent_ = -1;
+};
+
+gcode::ReaderOptions reader_options(const RunRequest& request) {
+  gcode::ReaderOptions options;
+  options.feedrate = request.feedrate;
+  return options;
+}
+
+void Run::plan(gcode::Reader reader) {
+  auto figures = plan_program(reader, request_.machine, request_.interpolator != "linear",
+                              [this](feedrate::PlannedSegment&& planned) {
+                                return segments_.push(std::move(planned));
+                              });
+  if (figures) {
+    plan_figures_ = *figures;
+  } else {
+    plan_error_ = figures.error();
+    stop_ = true;
+  }
+  segments_.close();
+}
+
+void Run::move() {
+  Pace pace;
+  pace.is_wall_clock = request_.is_wall_clock;
+  pace.period = request_.machine.period;
+  motion_end_ = run_motion(cycle_, interpolator_, segments_, samples_, request_.machine.limits,
+                           pace, request_.hal != nullptr, stop_);
+  segments_.stop();
+  has_ended_.store(true, std::memory_order_release);
+}
+
+/// Drains the samples until the motion has ended; after an error goes on draining, so that the machine can brake.
+void Run::record() {
+  trace::Sample sample;
+  for (;;) {
+    const bool has_ended = has_ended_.load(std::memory_order_acquire);
+    bool is_empty = true;
+    while (samples_.pop(sample)) {
+      is_empty = false;
+      if (record_error_) {
+        continue;
+      }
+      if (auto taken = recorder_.take(sample); !taken) {
+        record_error_ = taken.error();
+        stop_ = true;
+      }
+    }
+    if (is_empty && has_ended) {
+      return;
+    }
+    if (request_.stop != nullptr && request_.stop->load()) {
+      stop_ = true;
+    }
+    report_progress();
+    if (is_empty) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  }
+}
+
+void Run::report_progress() {
+  if (!request_.progress || program_.lines == 0) {
+    return;
+  }
+  const auto percent =
+      static_cast<int>(100 * recorder_.last().line / std::max<std::int64_t>(program_.lines, 1));
+  if (percent != shown_percent_) {
+    shown_percent_ = percent;
+    request_.progress(percent / 100.0);
+  }
+}
+
+std::optional<Error> Run::failure() const {
+  if (record_error_) {
+    return record_error_;
+  }
+  if (plan_error_) {
+    return plan_error_;
+  }
+  const auto at = fmt::format("at t = {:.3f} s, NC line {}", recorder_.last().t,
+                              recorder_.last().line);
+  switch (motion_end_) {
+    case MotionEnd::kDone:
+      return std::nullopt;
+    case MotionEnd::kInterrupted:
+      return Error{ErrorCode::kInterrupted, "interrupted: stopped on the path " + at, {}, 0, 0};
+    case MotionEnd::kMachineError:
+      return Error{ErrorCode::kMachine, fmt::format("machine '{}' failed {}: {}",
+                                                    request_.hal->info().name, at,
+                                                    request_.hal->last_error()), {}, 0, 0};
+    case MotionEnd::kOverrun:
+      return Error{ErrorCode::kMachine, "samples came faster than they could be written, " + at,
+                   {}, 0, 0};
+  }
+  return std::nullopt;
+}
+
+metrics::Summary Run::summarise(double wall_time) {
+  metrics::Summary summary;
+  summary.program = request_.program.filename().string();
+  summary.machine = request_.machine.name;
+  summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
+  summary.interpolator = request_.interpolator;
+  summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
+  summary.period = request_.machine.period;
+  const metrics::Running& lengths = plan_figures_.short_length;
+  summary.blocks = {plan_figures_.blocks, lengths.count(), lengths.min(), lengths.mean(),
+                    lengths.max()};
+  summary.segments = {plan_figures_.curves + plan_figures_.lines + plan_figures_.arcs,
+                      plan_figures_.curves, plan_figures_.lines, plan_figures_.arcs};
+  summary.compression_factor =
+      plan_figures_.curves > 0
+          ? static_cast<double>(lengths.count()) / static_cast<double>(plan_figures_.curves)
+          : 1.0;
+  summary.path_length = plan_figures_.path_length;
+  summary.planned_time = plan_figures_.time;
+  recorder_.summarise(summary);
+  if (summary.run) {
+    summary.run->real_time_factor = summary.run->machining_time / wall_time;
+  }
+  return summary;
+}
+
+Expected<RunResult> Run::execute() {
+  auto reader = gcode::Reader::open(request_.program.string(), reader_options(request_));
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  const auto start = std::chrono::steady_clock::now();
+  {
+    std::jthread planning([this, &reader] { plan(std::move(*reader)); });
+    std::jthread motion([this] { move(); });
+    record();
+  }
+  const double wall_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RunResult result;
+  result.failure = failure();
+  result.summary = summarise(wall_time);
+  if (!result.failure) {
+    if (auto committed = recorder_.commit(); !committed) {
+      result.failure = committed.error();
+    }
+  }
+  if (result.failure) {
+    recorder_.abandon();
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<RunResult> run_program(const RunRequest& request) {
+  const gcode::ReaderOptions options = reader_options(request);
+  auto program = check_program(request.program, options, request.machine.limits);
+  if (!program) {
+    return tl::unexpected(program.error());
+  }
+  std::error_code code;
+  std::filesystem::create_directories(request.directory / "plots", code);
+  if (code) {
+    return tl::unexpected(Error{ErrorCode::kFile, "cannot make this folder: " + code.message(),
+                                request.directory.string(), 0, 0});
+  }
+  ActiveMachine machine(request.hal);
+  if (auto started = machine.start(request.machine.period); !started) {
+    return tl::unexpected(started.error());
+  }
+  Recorder::Options recording;
+  recording.directory = request.directory;
+  recording.program = request.program;
+  recording.reader = options;
+  recording.limits = request.machine.limits;
+  recording.period = request.machine.period;
+  recording.has_machine = request.hal != nullptr;
+  auto recorder = Recorder::create(recording);
+  if (!recorder) {
+    return tl::unexpected(recorder.error());
+  }
+  Run run(request, *program, std::move(*recorder));
+  return run.execute();
+}
+
+}  // namespace twin::runtime
