@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace twin::gcode {
+
+/// One word of an NC line: a letter and its number.
+struct Word {
+  char letter = ' ';   ///< 'A' to 'Z', whatever the case in the program
+  double value = 0.0;  ///< in the program's own units
+  int column = 0;      ///< column of the letter, in bytes from 1
+};
+
+/// The words of one line, one at a time.
+///
+///   line = { blank | comment | word }
+///   word = letter { blank } [ sign ] digits-with-point
+/// Comments are ( to ) without nesting, and ; to the end of the line.
+class Lexer {
+ public:
+  /// @param line  one line without its end; must outlive the lexer
+  explicit Lexer(std::string_view line) : line_(line) {}
+
+  /// Reads the next word; false at the end of the line.
+  Expected<bool> next(Word& word);
+
+ private:
+  Expected<void> skip_blanks_and_comments();
+  Expected<void> skip_comment();
+  tl::unexpected<Error> unexpected_character() const;
+  tl::unexpected<Error> no_number(char letter, int column) const;
+  char peek() const noexcept { return at_ < line_.size() ? line_[at_] : '\0'; }
+  int column() const noexcept { return static_cast<int>(at_) + 1; }
+
+  std::string_view line_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace twin::gcode

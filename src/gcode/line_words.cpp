@@ -1,0 +1,128 @@
+#include "gcode/line_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gcode/fault.hpp"
+#include "gcode/letters.hpp"
+#include "gcode/lexer.hpp"
+
+namespace twin::gcode {
+namespace {
+
+std::string twice(char letter, double first, double second) {
+  return fmt::format(
+      "{}{:.10g} and {}{:.10g} on one line belong to the same modal group: expected one", letter,
+      first, letter, second);
+}
+
+Expected<void> check_number(const Word& word) {
+  const LetterKind kind = kind_of(word.letter);
+  if (kind == LetterKind::kPositive && !(word.value > 0.0)) {
+    return fail_at(word.column, fmt::format("{}{:.10g}: expected a feedrate above zero, in units "
+                                            "per minute",
+                                            word.letter, word.value));
+  }
+  if (kind == LetterKind::kNotNegative && word.value < 0.0) {
+    return fail_at(word.column,
+                   fmt::format("{}{:.10g}: expected zero or more", word.letter, word.value));
+  }
+  if (kind == LetterKind::kCount && (word.value < 0.0 || word.value != std::floor(word.value))) {
+    return fail_at(word.column, fmt::format("{}{:.10g}: expected a whole number, zero or more",
+                                            word.letter, word.value));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> LineWords::read(std::string_view line) {
+  letters_ = g_groups_ = m_groups_ = 0;
+  Lexer lexer(line);
+  Word word;
+  while (true) {
+    auto found = lexer.next(word);
+    if (!found) {
+      return tl::unexpected<Error>(std::move(found.error()));
+    }
+    if (!*found) {
+      return {};
+    }
+    if (auto added = add(word); !added) {
+      return added;
+    }
+  }
+}
+
+Expected<void> LineWords::add(const Word& word) {
+  if (word.letter == 'G') {
+    return add_g(word);
+  }
+  if (word.letter == 'M') {
+    return add_m(word);
+  }
+  if (kind_of(word.letter) == LetterKind::kRefused) {
+    return fail_at(word.column, refused_letter(word.letter));
+  }
+  if (has(word.letter)) {
+    return fail_at(word.column,
+                   fmt::format("{} appears twice on the line: expected once", word.letter));
+  }
+  letters_ |= bit(index(word.letter));
+  value_[index(word.letter)] = word.value;
+  column_[index(word.letter)] = word.column;
+  return check_number(word);
+}
+
+Expected<void> LineWords::add_g(const Word& word) {
+  const auto code = find_g(word.value);
+  if (!code) {
+    return fail_at(word.column, refused_g(word.value));
+  }
+  const std::size_t group = index(code->group);
+  if (has(code->group)) {
+    return fail_at(word.column, twice('G', g_number_[group], word.value));
+  }
+  g_groups_ |= bit(group);
+  g_[group] = code->word;
+  g_number_[group] = word.value;
+  g_column_[group] = word.column;
+  return {};
+}
+
+Expected<void> LineWords::add_m(const Word& word) {
+  const auto code = find_m(word.value);
+  if (!code) {
+    return fail_at(word.column, refused_m(word.value));
+  }
+  const std::size_t group = index(code->group);
+  if (has(code->group)) {
+    return fail_at(word.column, twice('M', m_number_[group], word.value));
+  }
+  m_groups_ |= bit(group);
+  m_[group] = code->word;
+  m_number_[group] = word.value;
+  return {};
+}
+
+bool LineWords::has_any(std::string_view letters) const noexcept {
+  for (const char letter : letters) {
+    if (has(letter)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+int LineWords::first_column(std::string_view letters) const noexcept {
+  int first = 0;
+  for (const char letter : letters) {
+    if (has(letter) && (first == 0 || column(letter) < first)) {
+      first = column(letter);
+    }
+  }
+  return first;
+}
+
+}  // namespace twin::gcode
