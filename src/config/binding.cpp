@@ -1,0 +1,141 @@
+#include "config/binding.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace twin::config {
+namespace {
+
+std::string text_of(const Value& value) {
+  struct Visitor {
+    std::string operator()(bool x) const { return x ? "true" : "false"; }
+    std::string operator()(std::int64_t x) const { return std::to_string(x); }
+    std::string operator()(double x) const { return fmt::format("{}", x); }
+    std::string operator()(const std::string& x) const { return '"' + x + '"'; }
+    std::string operator()(const std::vector<double>& x) const {
+      return fmt::format("[{}]", fmt::join(x, ", "));
+    }
+  };
+  return std::visit(Visitor{}, value);
+}
+
+tl::unexpected<Error> wrong_type(const Binding& b, const Value& value, std::string_view wanted) {
+  return fail(ErrorCode::kUsage,
+              fmt::format("{} = {} is not {}", b.path(), text_of(value), wanted));
+}
+
+Expected<double> number(const Binding& b, const Value& value, std::string_view wanted) {
+  double x = 0.0;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+    x = static_cast<double>(*whole);
+  } else if (const auto* real = std::get_if<double>(&value)) {
+    x = *real;
+  } else {
+    return wrong_type(b, value, wanted);
+  }
+  if (!std::isfinite(x)) {
+    return wrong_type(b, value, "a finite number");
+  }
+  if (x < b.min || x > b.max) {
+    const std::string unit = pretty_unit(b.unit);
+    return fail(ErrorCode::kUsage, fmt::format("{} = {}{}{} is out of range: {}", b.path(), x,
+                                               unit.empty() ? "" : " ", unit, range_text(b)));
+  }
+  return x;
+}
+
+// Gives a field of each kind its value.
+struct Assign {
+  const Binding& b;
+  const Value& value;
+
+  Expected<void> operator()(double* field) const {
+    return number(b, value, "a number").map([&](double x) { *field = x / b.per_base; });
+  }
+  Expected<void> operator()(int* field) const {
+    if (!std::holds_alternative<std::int64_t>(value)) {
+      return wrong_type(b, value, "a whole number");
+    }
+    return number(b, value, "a whole number").map([&](double x) { *field = static_cast<int>(x); });
+  }
+  Expected<void> operator()(std::string* field) const {
+    const auto* text = std::get_if<std::string>(&value);
+    if (text == nullptr || text->empty()) {
+      return wrong_type(b, value, "a text");
+    }
+    *field = *text;
+    return {};
+  }
+  Expected<void> operator()(Vec3* field) const {
+    const auto* list = std::get_if<std::vector<double>>(&value);
+    if (list == nullptr || list->size() != 3) {
+      return wrong_type(b, value, "a list of three numbers [x, y, z]");
+    }
+    Vec3 vector;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto x = number(b, (*list)[i], "a number");
+      if (!x) {
+        return tl::unexpected(x.error());
+      }
+      vector[static_cast<Eigen::Index>(i)] = *x / b.per_base;
+    }
+    *field = vector;
+    return {};
+  }
+};
+
+// In the key's unit; 15 digits, so that 0.1 s in ms is 100 and not 100.00000000000001.
+std::string scaled(double field, double per_base) {
+  return fmt::format("{:.15g}", field * per_base);
+}
+
+std::string real_text(double field, double per_base) {
+  const std::string text = scaled(field, per_base);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+}  // namespace
+
+Expected<void> assign(const Binding& binding, const Value& value) {
+  return std::visit(Assign{binding, value}, binding.target);
+}
+
+std::string value_text(const Binding& binding) {
+  struct Visitor {
+    double per_base;
+    std::string operator()(const double* x) const { return real_text(*x, per_base); }
+    std::string operator()(const int* x) const { return std::to_string(*x); }
+    std::string operator()(const std::string* x) const { return '"' + *x + '"'; }
+    std::string operator()(const Vec3* x) const {
+      return fmt::format("[{}, {}, {}]", real_text(x->x(), per_base), real_text(x->y(), per_base),
+                         real_text(x->z(), per_base));
+    }
+  };
+  return std::visit(Visitor{binding.per_base}, binding.target);
+}
+
+std::string pretty_unit(std::string_view unit) {
+  const auto per = unit.find("_per_");
+  std::string text(unit.substr(0, per));
+  if (per != std::string_view::npos) {
+    text += '/';
+    text += unit.substr(per + 5);
+  }
+  std::replace(text.begin(), text.end(), '_', ' ');
+  if (text.size() > 1 && (text.back() == '2' || text.back() == '3')) {
+    const char power = text.back();
+    text.back() = '^';
+    text += power;
+  }
+  return text;
+}
+
+std::string range_text(const Binding& binding) {
+  const std::string unit = pretty_unit(binding.unit);
+  return fmt::format("{:g} to {:g}{}{}", binding.min, binding.max, unit.empty() ? "" : " ", unit);
+}
+
+}  // namespace twin::config

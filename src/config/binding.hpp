@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "config/machine_file.hpp"
+
+namespace twin::config {
+
+/// A value as a machine file or a --set writes it.
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+
+/// One setting: its key, what it means, which values it may have, and the field that holds it.
+///
+/// The key wears its unit (`acceleration_mm_per_s2`); the bare name (`acceleration`) means the
+/// same. The field is in base units: field = value / per_base.
+struct Binding {
+  using Target = std::variant<double*, int*, std::string*, Vec3*>;
+
+  std::string section;  ///< "limits", "servo.x"
+  std::string name;     ///< "acceleration"
+  std::string unit;     ///< "mm_per_s2", or empty
+  Target target;
+  double min;             ///< smallest value, in the key's unit
+  double max;             ///< largest value, in the key's unit
+  std::string_view doc;   ///< what it means, in a few words
+  double per_base = 1.0;  ///< how many of the key's unit are one base unit: 60 for mm/min
+
+  /// "acceleration_mm_per_s2"
+  std::string key() const { return unit.empty() ? name : name + "_" + unit; }
+  /// "limits.acceleration_mm_per_s2"
+  std::string path() const { return section + "." + key(); }
+  /// True for the key with or without its unit.
+  bool is_called(std::string_view text) const { return text == name || text == key(); }
+};
+
+/// All settings of a machine: the one list from which files, --set and listings work.
+///
+/// The bindings point into `machine`, which must outlive them and stay where it is.
+std::vector<Binding> bindings(MachineFile& machine);
+
+/// The part of bindings() that is about the simulated table.
+std::vector<Binding> table_bindings(hal::TableParams& table);
+
+/// Gives the field a value; the error has the key, the value, its unit and the range.
+Expected<void> assign(const Binding& binding, const Value& value);
+
+/// The field's value, in the key's unit, as TOML writes it.
+std::string value_text(const Binding& binding);
+
+/// "mm/s^2" from "mm_per_s2"; empty stays empty.
+std::string pretty_unit(std::string_view unit);
+
+/// "0.125 to 4 ms"
+std::string range_text(const Binding& binding);
+
+}  // namespace twin::config

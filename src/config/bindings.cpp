@@ -1,0 +1,74 @@
+#include "config/binding.hpp"
+#include "core/units.hpp"
+
+// The list of settings. A new setting is a new line here, and nowhere else.
+namespace twin::config {
+namespace {
+
+using List = std::vector<Binding>;
+
+constexpr double kPerMinute = units::mm_per_min_from_mm_per_s(1.0);
+
+void add_limits(List& list, Limits& l) {
+  const char* section = "limits";
+  list.push_back({section, "feedrate", "mm_per_min", &l.feedrate, 1.0, 1e5,
+                  "largest feedrate the machine accepts", kPerMinute});
+  list.push_back({section, "rapid_feedrate", "mm_per_min", &l.rapid_feedrate, 1.0, 1e5,
+                  "feedrate of G00", kPerMinute});
+  list.push_back({section, "acceleration", "mm_per_s2", &l.acceleration, 1.0, 1e6,
+                  "A_max, tangential and normal, each"});
+  list.push_back({section, "jerk", "mm_per_s3", &l.jerk, 1.0, 1e9, "J_max, tangential"});
+  list.push_back(
+      {section, "travel_min", "mm", &l.travel_min, -1e4, 1e4, "lower ends of travel, x y z"});
+  list.push_back(
+      {section, "travel_max", "mm", &l.travel_max, -1e4, 1e4, "upper ends of travel, x y z"});
+}
+
+void add_planning(List& list, PlanningModel& p, PathSettings& s) {
+  const char* section = "planning";
+  list.push_back(
+      {section, "kp", "per_s", &p.kp, 1e-3, 1e5, "position gain Kp the planner believes in"});
+  list.push_back({section, "kf", "", &p.kf, 0.0, 0.999,
+                  "velocity feedforward gain Kf the planner believes in"});
+  list.push_back({section, "circular_error", "mm", &p.circular_error, 1e-6, 10.0,
+                  "circular contouring error, Eq. 4"});
+  list.push_back(
+      {section, "corner_error", "mm", &p.corner_error, 1e-6, 10.0, "corner error, Eqs. 1 and 16"});
+  list.push_back({section, "chord_error", "mm", &s.chord_error, 1e-6, 10.0,
+                  "chord tolerance; a curve's distance from the polygon"});
+  list.push_back({section, "min_segments", "", &s.min_segments, 2.0, 1e3,
+                  "fewest blocks fitted into one curve"});
+  list.push_back(
+      {section, "max_segments", "", &s.max_segments, 2.0, 1e3, "most blocks in one curve"});
+  list.push_back({section, "short_block_length", "mm", &s.short_block_length, 1e-3, 1e4,
+                  "a longer block is no short one"});
+  list.push_back({section, "look_ahead", "", &s.look_ahead, 2.0, 1e5,
+                  "planned segments between planner and interpolator"});
+}
+
+void add_servo(List& list, const std::string& section, servo::Gains& g) {
+  list.push_back({section, "kp", "per_s", &g.kp, 0.0, 1e5, "position gain"});
+  list.push_back({section, "kd", "", &g.kd, 0.0, 1e3, "derivative gain"});
+  list.push_back({section, "kf", "", &g.kf, 0.0, 10.0, "velocity feedforward"});
+  list.push_back({section, "ka", "s", &g.ka, -1.0, 1.0, "acceleration feedforward"});
+  list.push_back({section, "trim", "V", &g.trim_V, -10.0, 10.0,
+                  "added to the drive command against its offset"});
+}
+
+}  // namespace
+
+std::vector<Binding> bindings(MachineFile& machine) {
+  List list;
+  add_limits(list, machine.limits);
+  add_planning(list, machine.planning, machine.path);
+  list.push_back({"interpolator", "period", "ms", &machine.period, 0.125, 4.0,
+                  "time between set points", 1e3});
+  add_servo(list, "servo.x", machine.servo[hal::kX]);
+  add_servo(list, "servo.y", machine.servo[hal::kY]);
+  for (Binding& binding : table_bindings(machine.table)) {
+    list.push_back(std::move(binding));
+  }
+  return list;
+}
+
+}  // namespace twin::config

@@ -1,0 +1,51 @@
+#include <array>
+
+#include "config/binding.hpp"
+#include "hal/mujoco/table_settings.hpp"
+
+// The settings of the simulated table, from the table's own list of them.
+namespace twin::config {
+namespace {
+
+// Units that keys of the table end in; of two that fit the longer is meant.
+constexpr std::array<std::string_view, 16> kUnits{
+    "N_m_per_A", "um_per_count", "rpm_per_V", "N_s_per_m", "N_per_um", "mm_per_s",
+    "kg_m2",     "counts",       "N_m",       "deg",       "ms",       "mV",
+    "Hz",        "kg",           "mm",        "N"};
+
+Binding binding_of(const std::string& section, const hal::Setting& setting) {
+  Binding binding{section, std::string(setting.key), "", setting.value, setting.min, setting.max,
+                  ""};
+  binding.per_base = 1.0 / setting.to_base;
+  for (const std::string_view unit : kUnits) {
+    if (setting.key.ends_with(unit) && setting.key[setting.key.size() - unit.size() - 1] == '_') {
+      binding.name.resize(setting.key.size() - unit.size() - 1);
+      binding.unit = unit;
+      break;
+    }
+  }
+  return binding;
+}
+
+void add_axis(std::vector<Binding>& list, const std::string& section, hal::AxisParams& axis) {
+  list.push_back({section, "dac_bits", "", &axis.dac_bits, hal::kMinDacBits, hal::kMaxDacBits,
+                  "resolution of the D/A converter over +-10 V"});
+  for (const hal::Setting& setting : hal::axis_settings(axis)) {
+    list.push_back(binding_of(section, setting));
+  }
+}
+
+}  // namespace
+
+std::vector<Binding> table_bindings(hal::TableParams& table) {
+  std::vector<Binding> list;
+  list.push_back({"table", "model", "", &table.model, 0.0, 0.0, "MJCF file, relative to this one"});
+  for (const hal::Setting& setting : hal::table_settings(table)) {
+    list.push_back(binding_of("table", setting));
+  }
+  add_axis(list, "table.x", table.axis[hal::kX]);
+  add_axis(list, "table.y", table.axis[hal::kY]);
+  return list;
+}
+
+}  // namespace twin::config

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/limits.hpp"
+#include "core/path_settings.hpp"
+#include "hal/mujoco/table_params.hpp"
+#include "hal/signals.hpp"
+#include "servo/gains.hpp"
+
+/// Settings: the machine file (TOML) and what the command line changes of it.
+namespace twin::config {
+
+/// Everything a machine file says, in base units.
+struct MachineFile {
+  std::string name = "xy_table";  ///< the file's name without extension
+  std::filesystem::path file;     ///< where it was read from; empty: the built-in values
+  Limits limits;
+  PlanningModel planning;
+  PathSettings path;
+  double period = 0.001;  ///< interpolation period T [s]
+  std::array<servo::Gains, hal::kServoAxes> servo;
+  hal::TableParams table;  ///< table.model is absolute once read
+};
+
+/// Reads a machine file and then applies `section.key=value` texts to it, in order.
+///
+/// Keys that the file does not have keep the values of MachineFile. Errors of the file are kFile
+/// and have file, line and column; those of an override are kUsage.
+Expected<MachineFile> read_machine_file(const std::filesystem::path& file,
+                                        std::span<const std::string> overrides = {});
+
+/// The same from a text; `file` is what messages call it and what paths in it are relative to.
+Expected<MachineFile> parse_machine_file(std::string_view text, const std::filesystem::path& file,
+                                         std::span<const std::string> overrides = {});
+
+/// All settings as the text of a machine file: sections, keys with units, what each means and its
+/// range.
+///
+/// Reading it back gives the same values.
+std::string to_toml(const MachineFile& machine);
+
+}  // namespace twin::config

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "config/binding.hpp"
+#include "config/machine_file.hpp"
+#include "config/nearest_name.hpp"
+#include "config/overrides.hpp"
+#include "config/read_text.hpp"
+#include "config/rules.hpp"
+#include "config/toml_value.hpp"
+
+namespace twin::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Takes the keys of a parsed file one by one.
+class Reader {
+ public:
+  Reader(MachineFile& machine, std::string file)
+      : list_(bindings(machine)), file_(std::move(file)) {}
+
+  /// @param section  dotted name of the table, empty for the whole file
+  Expected<void> read(const toml::table& table, const std::string& section) {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      const std::string path = section.empty() ? name : section + "." + name;
+      const auto done = node.is_table() && is_section(path)
+                            ? read(*node.as_table(), path)
+                            : read_key(section, name, node, key.source());
+      if (!done) {
+        return done;
+      }
+    }
+    return {};
+  }
+
+ private:
+  bool is_section(const std::string& path) const {
+    return std::any_of(list_.begin(), list_.end(), [&](const Binding& b) {
+      return b.section == path || b.section.starts_with(path + ".");
+    });
+  }
+
+  Expected<void> read_key(const std::string& section, const std::string& name,
+                          const toml::node& node, const toml::source_region& place) {
+    const auto binding = std::find_if(list_.begin(), list_.end(), [&](const Binding& b) {
+      return b.section == section && b.is_called(name);
+    });
+    if (binding == list_.end()) {
+      return at(place, unknown(section, name, node.is_table()));
+    }
+    if (!seen_.insert(binding->path()).second) {
+      return at(place, binding->path() + " is given twice, with and without its unit");
+    }
+    const auto value = value_of(node);
+    if (!value) {
+      return at(node.source(), binding->path() + " is " + value.error().message);
+    }
+    const auto assigned = assign(*binding, *value);
+    return assigned ? Expected<void>{} : at(node.source(), assigned.error().message);
+  }
+
+  std::string unknown(const std::string& section, const std::string& name, bool is_table) const {
+    std::vector<std::string> names;
+    for (const Binding& b : list_) {
+      if (is_table || section.empty()) {
+        names.push_back(b.section);
+      } else if (b.section == section) {
+        names.push_back(b.key());
+      }
+    }
+    if (is_table) {
+      const std::string path = section.empty() ? name : section + "." + name;
+      return "unknown section [" + path + "]" + did_you_mean(path, names);
+    }
+    return section.empty()
+               ? "unknown key " + name + " outside of any section"
+               : "unknown key " + name + " in [" + section + "]" + did_you_mean(name, names);
+  }
+
+  tl::unexpected<Error> at(const toml::source_region& place, std::string message) const {
+    return tl::unexpected<Error>(Error{ErrorCode::kFile, std::move(message), file_,
+                                       static_cast<int>(place.begin.line),
+                                       static_cast<int>(place.begin.column)});
+  }
+
+  std::vector<Binding> list_;
+  std::string file_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+Expected<MachineFile> parse_machine_file(std::string_view text, const fs::path& file,
+                                         std::span<const std::string> overrides) {
+  const auto toml = parse_toml(text, file.string());
+  if (!toml) {
+    return tl::unexpected(toml.error());
+  }
+  MachineFile machine;
+  machine.file = file;
+  machine.table.model = "xy_table.xml";
+  machine.name = file.stem().string();
+  if (const auto done = Reader(machine, file.string()).read(*toml, ""); !done) {
+    return tl::unexpected(done.error());
+  }
+  if (auto fits = check_rules(machine); !fits) {
+    fits.error().file = file.string();
+    return tl::unexpected(fits.error());
+  }
+  if (const auto done = apply_overrides(machine, overrides); !done) {
+    return tl::unexpected(done.error());
+  }
+  machine.table.model =
+      fs::absolute(file.parent_path() / machine.table.model).lexically_normal().string();
+  return machine;
+}
+
+Expected<MachineFile> read_machine_file(const fs::path& file,
+                                        std::span<const std::string> overrides) {
+  const auto text = read_text(file);
+  if (!text) {
+    return tl::unexpected(text.error());
+  }
+  return parse_machine_file(*text, file, overrides);
+}
+
+}  // namespace twin::config

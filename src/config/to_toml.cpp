@@ -1,0 +1,25 @@
+#include <fmt/format.h>
+
+#include "config/binding.hpp"
+#include "config/machine_file.hpp"
+
+namespace twin::config {
+
+std::string to_toml(const MachineFile& machine) {
+  MachineFile copy = machine;  // the bindings want something to point at
+  std::string text;
+  std::string section;
+  for (const Binding& binding : bindings(copy)) {
+    if (binding.section != section) {
+      text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", binding.section);
+      section = binding.section;
+    }
+    const bool has_range = !std::holds_alternative<std::string*>(binding.target);
+    const std::string range = has_range ? fmt::format("({})", range_text(binding)) : "";
+    text += fmt::format("{:<46} # {}{}{}\n", binding.key() + " = " + value_text(binding),
+                        binding.doc, binding.doc.empty() || range.empty() ? "" : " ", range);
+  }
+  return text;
+}
+
+}  // namespace twin::config

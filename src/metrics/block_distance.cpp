@@ -1,0 +1,144 @@
+#include "metrics/block_distance.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace twin::metrics {
+namespace {
+
+using gcode::ArcGeometry;
+using gcode::Block;
+using gcode::Motion;
+
+constexpr double kStep = 0.26;       // sampling of an arc: just under 15 deg [rad]
+constexpr int kMostIterations = 60;  // Newton needs 4; bisection alone 50
+
+Vec3 seen(const Vec3& v, View view) noexcept {
+  return view == View::kSpace ? v : Vec3(v.x(), v.y(), 0.0);
+}
+
+/// C(f), C'(f), C''(f) of an arc.
+struct ArcPoint {
+  Vec3 position;  // [mm]
+  Vec3 first;     // [mm]
+  Vec3 second;    // [mm]
+};
+
+ArcPoint evaluate(const ArcGeometry& g, double f) noexcept {
+  const double a = f * g.sweep;
+  const Vec3 radial = std::cos(a) * g.e1 + std::sin(a) * g.e2;
+  const Vec3 along = std::cos(a) * g.e2 - std::sin(a) * g.e1;
+  const Vec3 axis = g.e1.cross(g.e2);
+  const double r = g.radius + f * g.radius_change;
+  return {g.centre + r * radial + f * g.rise * axis,
+          g.radius_change * radial + r * g.sweep * along + g.rise * axis,
+          2.0 * g.radius_change * g.sweep * along - r * g.sweep * g.sweep * radial};
+}
+
+/// Half the derivative of the squared distance at f, and the derivative of that.
+std::array<double, 2> slope(const ArcGeometry& g, const Vec3& p, View view, double f) noexcept {
+  const ArcPoint at = evaluate(g, f);
+  const Vec3 d = seen(at.position - p, view);
+  return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
+}
+
+/// Minimum of the squared distance within [lo, hi] that holds just one, by bracketed Newton steps.
+double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
+  if (slope(g, p, view, lo)[0] >= 0.0) {
+    return lo;
+  }
+  if (slope(g, p, view, hi)[0] <= 0.0) {
+    return hi;
+  }
+  double f = 0.5 * (lo + hi);
+  for (int i = 0; i < kMostIterations; ++i) {
+    const auto [first, second] = slope(g, p, view, f);
+    (first > 0.0 ? hi : lo) = f;
+    double next = f - first / second;
+    if (!(next > lo && next < hi)) {
+      next = 0.5 * (lo + hi);
+    }
+    const bool is_done = std::abs(next - f) < 1e-13;
+    f = next;
+    if (is_done) {
+      break;
+    }
+  }
+  return f;
+}
+
+Place place_at(const Block& block, const Vec3& point, View view, double f) noexcept {
+  const Vec3 at = point_at(block, f);
+  return {seen(at - point, view).norm(), f, at};
+}
+
+Place nearest_of_arc(const Block& block, const Vec3& p, View view, double from,
+                     double to) noexcept {
+  const int pieces =
+      std::max(1, static_cast<int>(std::ceil((to - from) * block.arc.sweep / kStep)));
+  const auto fraction = [&](int i) {
+    return from + (to - from) * std::clamp(i, 0, pieces) / pieces;
+  };
+  const auto squared = [&](int i) {
+    return seen(point_at(block, fraction(i)) - p, view).squaredNorm();
+  };
+  Place place;
+  place.distance = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity();
+  double here = squared(0);
+  for (int i = 0; i <= pieces; ++i) {
+    const double after = i < pieces ? squared(i + 1) : std::numeric_limits<double>::infinity();
+    if (here <= before && here <= after) {
+      const double f = refine(block.arc, p, view, fraction(i - 1), fraction(i + 1));
+      const Place candidate = place_at(block, p, view, f);
+      place = candidate.distance < place.distance ? candidate : place;
+    }
+    before = here;
+    here = after;
+  }
+  return place;
+}
+
+}  // namespace
+
+Vec3 point_at(const Block& block, double fraction) noexcept {
+  switch (block.motion) {
+    case Motion::kArc:
+      return evaluate(block.arc, fraction).position;
+    case Motion::kDwell:
+      return block.start;
+    default:
+      return block.start + fraction * (block.end - block.start);
+  }
+}
+
+double block_length(const Block& block, View view) noexcept {
+  if (block.motion == Motion::kDwell) {
+    return 0.0;
+  }
+  if (block.motion != Motion::kArc) {
+    return seen(block.end - block.start, view).norm();
+  }
+  const ArcGeometry& g = block.arc;
+  const double around = (g.radius + 0.5 * g.radius_change) * g.sweep;
+  const bool is_flat = std::hypot(g.e1.z(), g.e2.z()) < 1e-9;
+  return view == View::kAlongZ && is_flat ? around : std::hypot(around, g.rise);
+}
+
+Place nearest(const Block& block, const Vec3& point, View view, double from, double to) noexcept {
+  if (block.motion == Motion::kArc) {
+    return nearest_of_arc(block, point, view, from, to);
+  }
+  if (block.motion == Motion::kDwell) {
+    return place_at(block, point, view, 0.0);
+  }
+  const Vec3 way = seen(block.end - block.start, view);
+  const double squared = way.squaredNorm();
+  const double foot = squared > 0.0 ? seen(point - block.start, view).dot(way) / squared : 0.0;
+  return place_at(block, point, view, std::clamp(foot, from, to));
+}
+
+}  // namespace twin::metrics

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "core/units.hpp"
+#include "metrics/summary.hpp"
+
+namespace twin::metrics {
+namespace {
+
+constexpr int kNameWidth = 26;
+
+/// A text of lines "  name   value".
+class Table {
+ public:
+  void line(std::string_view name, std::string_view value) {
+    text_ += fmt::format("  {:<{}}{}\n", name, kNameWidth, value);
+  }
+  void columns(std::string_view name, std::string_view first, std::string_view second,
+               std::string_view unit) {
+    text_ += fmt::format("  {:<{}}{:>12}{:>12}  {}\n", name, kNameWidth, first, second, unit);
+  }
+  void error_um(std::string_view name, const ErrorFigures& error) {
+    columns(name, fmt::format("{:.3f}", units::um_from_mm(error.max)),
+            fmt::format("{:.3f}", units::um_from_mm(error.rms)), "um");
+  }
+  void peak(std::string_view name, double value, double limit, std::string_view unit) {
+    columns(name, fmt::format("{:.1f}", value), fmt::format("{:.1f}", limit), unit);
+  }
+  void gap() { text_ += '\n'; }
+  void title(std::string_view text) { text_ += fmt::format("{}\n", text); }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+std::string plural(std::int64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string title_of(const Summary& s) {
+  const std::string machine =
+      s.run ? fmt::format("{} ({}{})", s.machine, s.hal, s.simulated ? ", simulated" : "")
+            : fmt::format("{} (plan only)", s.machine);
+  return fmt::format("{} on {}, {} interpolator, period {:g} ms", s.program, machine,
+                     s.interpolator, s.period * 1e3);
+}
+
+void add_path(Table& table, const Summary& s) {
+  table.line("blocks", fmt::format("{}, {} of them short, {:.3f} to {:.3f} mm, mean {:.3f} mm",
+                                   s.blocks.total, s.blocks.short_blocks, s.blocks.length_min,
+                                   s.blocks.length_max, s.blocks.length_mean));
+  table.line("segments",
+             fmt::format("{}: {}, {}, {}", s.segments.total, plural(s.segments.curves, "curve"),
+                         plural(s.segments.lines, "line"), plural(s.segments.arcs, "arc")));
+  table.line("compression factor", fmt::format("{:.2f}", s.compression_factor));
+  table.line("path length", fmt::format("{:.3f} mm", s.path_length));
+  table.line("planned time", fmt::format("{:.3f} s", s.planned_time));
+  if (s.run) {
+    table.line("machining time", fmt::format("{:.3f} s, {:.1f} times faster than real time",
+                                             s.run->machining_time, s.run->real_time_factor));
+    table.line("cycle time", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us max",
+                                         s.run->cycle_time.p50 * 1e6, s.run->cycle_time.p99 * 1e6,
+                                         s.run->cycle_time.max * 1e6));
+  }
+}
+
+void add_errors(Table& table, const Summary& s) {
+  table.columns("", "max", "rms", "");
+  table.error_um("contour error, command", s.command_contour_error);
+  if (s.run) {
+    table.error_um("contour error, encoder", s.run->contour_error);
+    table.error_um("contour error, table", s.run->table_contour_error);
+    table.error_um("tracking error, x", s.run->tracking_error[0]);
+    table.error_um("tracking error, y", s.run->tracking_error[1]);
+  }
+}
+
+void add_peaks(Table& table, const Summary& s, const Limits& limits) {
+  table.columns("", "peak", "limit", "");
+  table.peak("feedrate", s.audit.feedrate, limits.feedrate, "mm/s");
+  table.peak("tangential acceleration", s.audit.tangential_acceleration, limits.acceleration,
+             "mm/s^2");
+  table.peak("normal acceleration", s.audit.normal_acceleration, limits.acceleration, "mm/s^2");
+  table.peak("tangential jerk", s.audit.tangential_jerk, limits.jerk, "mm/s^3");
+}
+
+}  // namespace
+
+std::string to_table(const Summary& summary, const Limits& limits) {
+  Table table;
+  table.title(title_of(summary));
+  table.gap();
+  add_path(table, summary);
+  table.gap();
+  add_errors(table, summary);
+  table.gap();
+  add_peaks(table, summary, limits);
+  return table.take();
+}
+
+}  // namespace twin::metrics
