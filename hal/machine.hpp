@@ -31,6 +31,8 @@ struct MachineInfo {
   std::string name;                             ///< "mujoco", "ideal", "rig"
   bool simulated = true;                        ///< false only where metal moves
   bool has_truth = true;                        ///< truth() means something
+  bool follows_reference = false;               ///< position equals the reference handed to write(); measured values
+                                                ///< are those of truth() after write()
   std::array<double, kServoAxes> mm_per_count{};     ///< encoder scale, signed [mm/count]
   std::array<double, kServoAxes> mm_per_s_per_volt{};  ///< V-REF scale, signed [mm/s/V]
 };

@@ -1,0 +1,81 @@
+#include "hal/mujoco/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace twin::hal {
+namespace {
+
+constexpr double kRadPerSPerRpm = 2.0 * std::numbers::pi / 60.0;
+
+/// What a first-order lag takes over of its input in one step: exact for a constant input.
+double share_of_step(double step, double lag) noexcept {
+  return lag > 0.0 ? -std::expm1(-step / lag) : 1.0;
+}
+
+}  // namespace
+
+Drive::Drive(const DriveParams& drive, const MotorParams& motor, double inertia,
+             double step) noexcept
+    : drive_(drive),
+      motor_(motor),
+      gain_(inertia * 2.0 * std::numbers::pi * drive.velocity_gain_Hz),
+      step_(step),
+      input_share_(share_of_step(step, drive.input_lag)),
+      current_share_(share_of_step(step, motor.current_lag)) {}
+
+void Drive::reset() noexcept {
+  filtered_ = integral_ = current_ = time_on_ = time_limited_ = 0.0;
+  is_ready_ = has_alarm_ = false;
+}
+
+double Drive::reference(double volts, double time, const DriveSignals& signals) noexcept {
+  double disturbed = volts + drive_.vref_offset;
+  if (drive_.hum_amplitude != 0.0) {
+    const double angle = 2.0 * std::numbers::pi * drive_.hum_frequency_Hz * time + drive_.hum_phase;
+    disturbed += drive_.hum_amplitude * std::sin(angle);
+  }
+  filtered_ += input_share_ * (disturbed - filtered_);
+  double speed = filtered_ * drive_.vref_scale_rpm_per_V * kRadPerSPerRpm;
+  if (signals.limit_positive) {
+    speed = std::min(speed, 0.0);
+  }
+  if (signals.limit_negative) {
+    speed = std::max(speed, 0.0);
+  }
+  return speed;
+}
+
+double Drive::velocity_loop(double error) noexcept {
+  const double wanted = gain_ * (error + integral_);
+  const double torque = std::clamp(wanted, -motor_.peak_torque, motor_.peak_torque);
+  const bool is_limited = torque != wanted;
+  if (!is_limited || wanted * error < 0.0) {
+    integral_ += error * step_ / drive_.integral_time;
+  }
+  watch_overload(is_limited);
+  return torque;
+}
+
+void Drive::watch_overload(bool is_limited) noexcept {
+  time_limited_ = is_limited ? time_limited_ + step_ : 0.0;
+  if (time_limited_ >= drive_.overload_time) {
+    has_alarm_ = true;
+  }
+}
+
+double Drive::step(double volts, double speed, double time, const DriveSignals& signals) noexcept {
+  const double speed_reference = reference(volts, time, signals);
+  time_on_ = signals.servo_on ? time_on_ + step_ : 0.0;
+  is_ready_ = signals.servo_on && !has_alarm_ && time_on_ > drive_.ready_delay;
+  if (!is_ready_) {
+    integral_ = current_ = time_limited_ = 0.0;
+    return 0.0;
+  }
+  const double torque = velocity_loop(speed_reference - speed);
+  current_ += current_share_ * (torque / motor_.torque_constant - current_);
+  return motor_.torque_constant * current_;
+}
+
+}  // namespace twin::hal

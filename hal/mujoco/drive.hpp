@@ -1,0 +1,62 @@
+#pragma once
+
+#include "hal/mujoco/table_params.hpp"
+
+namespace twin::hal {
+
+/// What a drive is told by its terminals, besides V-REF.
+struct DriveSignals {
+  bool servo_on = false;
+  bool limit_positive = false;  ///< P-OT: no positive speed any more
+  bool limit_negative = false;  ///< N-OT: no negative speed any more
+};
+
+/// Servo drive in speed mode with its motor's current loop.
+///
+///   V-REF -> (+ offset + hum) -> input filter -> x scale -> velocity PI -> torque limit -> current
+///   loop -> torque
+///
+/// The velocity loop is referred to the total inertia J, so that its gain is a bandwidth: with K =
+/// 2 pi f,
+///   tau* = J K (e + (1/Ti) int e dt),   e = w_ref - w                               [N.m]
+/// and on the bare inertia, without limit and lag, w / w_ref = K (s + 1/Ti) / (s^2 + K s + K / Ti).
+/// Anti-windup: the integral stands still while the torque is at its limit and the error would
+/// drive it further. The current loop is a first-order lag, taken exactly over a step. The motor
+/// gives no torque while the servo is off, until ready_delay after it was switched on, and after an
+/// alarm.
+class Drive {
+ public:
+  /// @param inertia total inertia J at the motor [kg m^2]  @param step physics step [s]
+  Drive(const DriveParams& drive, const MotorParams& motor, double inertia, double step) noexcept;
+
+  /// Advances by one step and returns the motor's torque [N.m]. Real-time safe.
+  /// @param volts  V-REF at the terminals [V]   @param speed  motor speed [rad/s]   @param time [s]
+  double step(double volts, double speed, double time, const DriveSignals& signals) noexcept;
+  /// Torque-free, filters empty, alarm cleared. Real-time safe.
+  void reset() noexcept;
+
+  bool is_ready() const noexcept { return is_ready_; }
+  bool has_alarm() const noexcept { return has_alarm_; }
+  double current() const noexcept { return current_; }  ///< motor current [A]
+
+ private:
+  double reference(double volts, double time, const DriveSignals& signals) noexcept;
+  double velocity_loop(double error) noexcept;
+  void watch_overload(bool is_limited) noexcept;
+
+  DriveParams drive_;
+  MotorParams motor_;
+  double gain_;                // J K [N.m s/rad]
+  double step_;                // [s]
+  double input_share_;         // 1 - exp(-h / input_lag), 1 without lag
+  double current_share_;       // the same of the current loop
+  double filtered_ = 0.0;      // V-REF behind its filter [V]
+  double integral_ = 0.0;      // (1/Ti) int e dt [rad/s]
+  double current_ = 0.0;       // [A]
+  double time_on_ = 0.0;       // since /S-ON [s]
+  double time_limited_ = 0.0;  // at the torque limit without a break [s]
+  bool is_ready_ = false;
+  bool has_alarm_ = false;
+};
+
+}  // namespace twin::hal

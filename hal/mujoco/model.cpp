@@ -1,0 +1,71 @@
+#include "hal/mujoco/model.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "hal/mujoco/mujoco_errors.hpp"
+
+namespace twin::hal {
+namespace {
+
+/// MuJoCo's text on one line, without the prefix that every message has.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') {
+      c = ' ';
+    }
+  }
+  const auto end = text.find_last_not_of(' ');
+  text.resize(end == std::string::npos ? 0 : end + 1);
+  return text;
+}
+
+tl::unexpected<Error> model_error(const std::filesystem::path& file, std::string message) {
+  return tl::unexpected<Error>(Error{ErrorCode::kModel, std::move(message), file.string(), 0, 0});
+}
+
+}  // namespace
+
+Expected<ModelPtr> load_model(const std::filesystem::path& file) {
+  install_mujoco_handlers();
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(file, code)) {
+    return model_error(file, "no such MJCF file");
+  }
+  std::array<char, 1000> text{};
+  try {
+    ModelPtr model(mj_loadXML(file.c_str(), nullptr, text.data(), static_cast<int>(text.size())));
+    if (!model) {
+      return model_error(file, fmt::format("MuJoCo cannot load it: {}", one_line(text.data())));
+    }
+    return model;
+  } catch (const MujocoError& error) {
+    return model_error(file, fmt::format("MuJoCo cannot load it: {}", one_line(error.what())));
+  }
+}
+
+Expected<DataPtr> make_data(const mjModel& model) {
+  install_mujoco_handlers();
+  try {
+    DataPtr data(mj_makeData(&model));
+    if (data) {
+      return data;
+    }
+    return fail(ErrorCode::kModel, "MuJoCo cannot make the state of the model: out of memory");
+  } catch (const MujocoError& error) {
+    return fail(ErrorCode::kModel, fmt::format("MuJoCo cannot make the state of the model: {}",
+                                               one_line(error.what())));
+  }
+}
+
+Expected<int> find_id(const mjModel& model, mjtObj type, const std::string& kind,
+                      const std::string& name) {
+  const int id = mj_name2id(&model, type, name.c_str());
+  if (id < 0) {
+    return fail(ErrorCode::kModel, fmt::format("the model has no {} named \"{}\"", kind, name));
+  }
+  return id;
+}
+
+}  // namespace twin::hal

@@ -1,0 +1,66 @@
+#include "hal/mujoco/table_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace twin::hal {
+namespace {
+
+// Rubber end stops behind the limit switches: only so that a runaway ends somewhere.
+constexpr double kStopGap = 5.0;           // behind the switch [mm]
+constexpr double kStopStiffness = 1000.0;  // [N/mm]
+constexpr double kStopDamping = 5.0;       // [N s/mm]
+
+std::size_t steps_of_delay(double delay, double step) {
+  return static_cast<std::size_t>(std::llround(delay / step));
+}
+
+}  // namespace
+
+TableAxis::TableAxis(const AxisParams& params, double step)
+    : travel_(params.travel),
+      dac_(params.dac_bits),
+      delay_(steps_of_delay(params.drive.output_delay, step)),
+      drive_(params.drive, params.motor, params.total_inertia(), step),
+      friction_(params.friction, step),
+      encoder_(params.encoder) {}
+
+void TableAxis::command(double volts, bool servo_on) noexcept {
+  volts_ = dac_.convert(volts);
+  servo_on_ = servo_on;
+}
+
+double TableAxis::end_stop(const AxisMotion& motion) const noexcept {
+  const double depth = std::abs(motion.position) - (travel_ + kStopGap);
+  if (depth <= 0.0) {
+    return 0.0;
+  }
+  const double outward = std::copysign(1.0, motion.position);
+  const double push = kStopStiffness * depth + kStopDamping * outward * motion.velocity;
+  return -outward * std::max(push, 0.0);
+}
+
+AxisForces TableAxis::step(const AxisMotion& motion, double time) noexcept {
+  DriveSignals signals;
+  signals.servo_on = servo_on_;
+  signals.limit_positive = is_limit_positive(motion.position);
+  signals.limit_negative = is_limit_negative(motion.position);
+  AxisForces forces;
+  forces.torque = drive_.step(delay_.step(volts_), motion.motor_speed, time, signals);
+  forces.slide = end_stop(motion) - friction_.step(motion.velocity);
+  return forces;
+}
+
+void TableAxis::reset_drive() noexcept {
+  switch_off();
+  delay_.clear();
+  drive_.reset();
+}
+
+void TableAxis::reset() noexcept {
+  reset_drive();
+  friction_.reset();
+  encoder_.zero(0.0);
+}
+
+}  // namespace twin::hal

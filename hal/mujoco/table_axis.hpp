@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hal/mujoco/dac.hpp"
+#include "hal/mujoco/delay_line.hpp"
+#include "hal/mujoco/drive.hpp"
+#include "hal/mujoco/encoder.hpp"
+#include "hal/mujoco/lugre.hpp"
+#include "hal/mujoco/table_params.hpp"
+
+namespace twin::hal {
+
+/// Where one axis is at the start of a physics step.
+struct AxisMotion {
+  double position = 0.0;     ///< of the slide, 0 in the middle of its travel [mm]
+  double velocity = 0.0;     ///< of the slide [mm/s]
+  double motor_speed = 0.0;  ///< [rad/s]
+};
+
+/// What acts on it during the step.
+struct AxisForces {
+  double torque = 0.0;  ///< of the motor [N.m]
+  double slide = 0.0;   ///< friction and end stops, along the positive direction [N]
+};
+
+/// One servo axis between its terminals and its slide: converter, drive, friction, switches, end
+/// stops.
+///
+/// MuJoCo moves the masses; everything else of the axis is here, in mm, N and V.
+class TableAxis {
+ public:
+  /// @param step physics step [s]. Allocates.
+  TableAxis(const AxisParams& params, double step);
+
+  /// V-REF that holds from now on, before the converter [V], finite. Real-time safe.
+  void command(double volts, bool servo_on) noexcept;
+  /// One physics step. Real-time safe. @param time since the first step [s]
+  AxisForces step(const AxisMotion& motion, double time) noexcept;
+  /// 0 V, nothing stored. Real-time safe.
+  void reset() noexcept;
+  /// Servo off. Alarms stay until reset_drive(). Real-time safe.
+  void switch_off() noexcept { command(0.0, false); }
+  /// Clears an alarm and the states of the drive. Real-time safe.
+  void reset_drive() noexcept;
+
+  Encoder& encoder() noexcept { return encoder_; }
+  const Encoder& encoder() const noexcept { return encoder_; }
+  const Drive& drive() const noexcept { return drive_; }
+  bool is_limit_positive(double position) const noexcept { return position >= travel_; }
+  bool is_limit_negative(double position) const noexcept { return position <= -travel_; }
+
+ private:
+  double end_stop(const AxisMotion& motion) const noexcept;
+
+  double travel_;  // limit switches at +-travel_ [mm]
+  Dac dac_;
+  DelayLine delay_;
+  Drive drive_;
+  Lugre friction_;
+  Encoder encoder_;
+  double volts_ = 0.0;  // behind the converter [V]
+  bool servo_on_ = false;
+};
+
+}  // namespace twin::hal

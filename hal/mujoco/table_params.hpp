@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <string>
+
+#include "hal/signals.hpp"
+
+/// Every number of the simulated table, with units. The values are those of mjcf/xy_table.toml;
+/// where each comes from is said in mjcf/README.md.
+namespace twin::hal {
+
+/// Servo motor on the ball screw (SGMAH-02A).
+struct MotorParams {
+  double rotor_inertia = 1.06e-5;  ///< [kg m^2]
+  double torque_constant = 0.327;  ///< [N.m/A]
+  double peak_torque = 1.91;       ///< torque limit either way [N.m]
+  double current_lag = 0.45e-3;    ///< time constant of the current loop, 0: none [s]
+};
+
+/// Drive in speed mode.
+struct DriveParams {
+  double vref_scale_rpm_per_V = 500.0;  ///< speed per volt of V-REF, signed [rpm/V]
+  double input_lag = 0.0;               ///< time constant of the V-REF input filter, 0: none [s]
+  double output_delay = 0.3e-3;         ///< from write() to the drive seeing the voltage [s]
+  double velocity_gain_Hz = 30.0;       ///< velocity loop gain, referred to the total inertia [Hz]
+  double integral_time = 7e-3;          ///< of the velocity loop [s]
+  double vref_offset = 0.0;             ///< constant disturbance of V-REF [V]
+  double hum_amplitude = 20e-3;         ///< peak of the mains hum on V-REF [V]
+  double hum_frequency_Hz = 60.0;       ///< [Hz]
+  double hum_phase = 0.0;               ///< at the first physics step [rad]
+  double ready_delay = 20e-3;           ///< from /S-ON to /S-RDY and torque [s]
+  double overload_time = 0.5;           ///< alarm after so long at the torque limit [s]
+};
+
+/// LuGre friction of the slide.
+struct LugreParams {
+  double coulomb = 8.0;              ///< Coulomb friction Fc [N]
+  double static_ratio = 1.5;         ///< breakaway over Coulomb friction Fs / Fc >= 1 [-]
+  double stribeck_velocity = 2.0;    ///< vs [mm/s]
+  double bristle_stiffness = 300.0;  ///< s0 [N/mm]
+  double bristle_damping = 0.44;     ///< s1 [N s/mm]
+  double viscous = 0.01;             ///< s2 [N s/mm]
+  double elastic_share =
+      0.9;  ///< share of the Coulomb deflection that is purely elastic, 0: plain LuGre [-]
+};
+
+/// Ball screw.
+struct ScrewParams {
+  double lead = 10.0;       ///< travel per revolution [mm]
+  double stiffness = 60e3;  ///< between motor and slide, used by the compliant model only [N/mm]
+  double damping = 4.0;     ///< the same [N s/mm]
+};
+
+/// Incremental encoder on the motor.
+struct EncoderParams {
+  double mm_per_count = 0.010;  ///< after fourfold evaluation, signed [mm/count]
+  double phase = 0.5;           ///< where in a count the zero lies, 0 <= phase < 1 [counts]
+};
+
+/// One servo axis of the table.
+struct AxisParams {
+  double moving_mass = 12.0;  ///< everything that this axis moves, without the rotor [kg]
+  double travel = 210.0;      ///< limit switches at -travel and +travel [mm]
+  int dac_bits = 16;          ///< resolution of the D/A converter over +-10 V [bit]
+  MotorParams motor;
+  DriveParams drive;
+  LugreParams friction;
+  ScrewParams screw;
+  EncoderParams encoder;
+
+  /// Travel per radian of the motor [mm/rad].
+  double mm_per_rad() const { return screw.lead / (2.0 * std::numbers::pi); }
+  /// Rotor and slide as seen by the motor, J = J_r + m (lead / 2 pi)^2 [kg m^2].
+  double total_inertia() const {
+    const double m_per_rad = mm_per_rad() * 1e-3;
+    return motor.rotor_inertia + moving_mass * m_per_rad * m_per_rad;
+  }
+  /// Rotor as seen by the slide, J_r (2 pi / lead)^2 [kg].
+  double rotor_mass() const {
+    const double m_per_rad = mm_per_rad() * 1e-3;
+    return motor.rotor_inertia / (m_per_rad * m_per_rad);
+  }
+};
+
+/// The lower axis: carries the X table on its saddle.
+inline AxisParams default_y_axis() {
+  AxisParams axis;
+  axis.moving_mass = 30.0;
+  axis.friction.coulomb = 10.0;
+  axis.friction.bristle_stiffness = 10e3;
+  axis.friction.bristle_damping = 1.11;
+  axis.drive.velocity_gain_Hz = 150.0;
+  axis.drive.integral_time = 10e-3;
+  return axis;
+}
+
+/// The whole table.
+struct TableParams {
+  std::string model =
+      "mjcf/xy_table.xml";         ///< MJCF file; xy_table_compliant.xml for screws that give
+  double physics_step = 1e-4;      ///< must divide the interpolation period [s]
+  double pen_bandwidth_Hz = 20.0;  ///< of the Z slide that follows its reference [Hz]
+  std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};
+};
+
+}  // namespace twin::hal

@@ -1,0 +1,125 @@
+#include "hal/mujoco/table_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace twin::hal {
+namespace {
+
+constexpr double kMilli = 1e-3;
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kPerMmFromPerUm = 1e3;   // stiffness: N/um in N/mm
+constexpr double kPerMmFromPerM = 1e-3;   // damping: N s/m in N s/mm
+constexpr double kWholeTolerance = 1e-6;  // how far from whole a count of steps may be
+
+tl::unexpected<Error> out_of_range(const std::string& section, const Setting& setting) {
+  return fail(ErrorCode::kMachine,
+              fmt::format("{}.{} = {:g} is outside {:g} to {:g}", section, setting.key,
+                          *setting.value / setting.to_base, setting.min, setting.max));
+}
+
+Expected<void> check(const std::string& section, const std::vector<Setting>& settings) {
+  for (const Setting& setting : settings) {
+    const double value = *setting.value / setting.to_base;
+    const double slack = 1e-9 * (std::abs(setting.min) + std::abs(setting.max));
+    if (!(value >= setting.min - slack && value <= setting.max + slack)) {
+      return out_of_range(section, setting);
+    }
+  }
+  return {};
+}
+
+Expected<void> check_axis(const std::string& section, AxisParams& axis) {
+  if (Expected<void> result = check(section, axis_settings(axis)); !result) {
+    return result;
+  }
+  if (axis.dac_bits < kMinDacBits || axis.dac_bits > kMaxDacBits) {
+    return fail(ErrorCode::kMachine, fmt::format("{}.dac_bits = {} is outside {} to {}", section,
+                                                 axis.dac_bits, kMinDacBits, kMaxDacBits));
+  }
+  if (axis.encoder.mm_per_count == 0.0 || axis.drive.vref_scale_rpm_per_V == 0.0) {
+    return fail(ErrorCode::kMachine,
+                fmt::format("{}.encoder_um_per_count and {}.vref_scale_rpm_per_V must not be 0",
+                            section, section));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Setting> table_settings(TableParams& params) {
+  return {
+      {"physics_step_ms", &params.physics_step, kMilli, 1e-3, 1.0},
+      {"pen_bandwidth_Hz", &params.pen_bandwidth_Hz, 1.0, 1.0, 100.0},
+  };
+}
+
+std::vector<Setting> axis_settings(AxisParams& params) {
+  auto& [mass, travel, bits, motor, drive, friction, screw, encoder] = params;
+  static_cast<void>(bits);
+  return {
+      {"moving_mass_kg", &mass, 1.0, 0.1, 10000.0},
+      {"travel_mm", &travel, 1.0, 1.0, 10000.0},
+      {"rotor_inertia_kg_m2", &motor.rotor_inertia, 1.0, 1e-9, 1.0},
+      {"torque_constant_N_m_per_A", &motor.torque_constant, 1.0, 1e-3, 100.0},
+      {"peak_torque_N_m", &motor.peak_torque, 1.0, 1e-3, 1000.0},
+      {"current_lag_ms", &motor.current_lag, kMilli, 0.0, 100.0},
+      {"vref_scale_rpm_per_V", &drive.vref_scale_rpm_per_V, 1.0, -10000.0, 10000.0},
+      {"input_lag_ms", &drive.input_lag, kMilli, 0.0, 100.0},
+      {"output_delay_ms", &drive.output_delay, kMilli, 0.0, 100.0},
+      {"velocity_gain_Hz", &drive.velocity_gain_Hz, 1.0, 0.1, 20000.0},
+      {"integral_time_ms", &drive.integral_time, kMilli, 0.01, 1e6},
+      {"vref_offset_mV", &drive.vref_offset, kMilli, -1000.0, 1000.0},
+      {"hum_amplitude_mV", &drive.hum_amplitude, kMilli, 0.0, 1000.0},
+      {"hum_frequency_Hz", &drive.hum_frequency_Hz, 1.0, 0.0, 5000.0},
+      {"hum_phase_deg", &drive.hum_phase, kRadPerDeg, -360.0, 360.0},
+      {"ready_delay_ms", &drive.ready_delay, kMilli, 0.0, 10000.0},
+      {"overload_time_ms", &drive.overload_time, kMilli, 1.0, 1e6},
+      {"coulomb_friction_N", &friction.coulomb, 1.0, 0.0, 10000.0},
+      {"static_friction_ratio", &friction.static_ratio, 1.0, 1.0, 10.0},
+      {"stribeck_velocity_mm_per_s", &friction.stribeck_velocity, 1.0, 1e-3, 1000.0},
+      {"bristle_stiffness_N_per_um", &friction.bristle_stiffness, kPerMmFromPerUm, 1e-4, 1000.0},
+      {"bristle_damping_N_s_per_m", &friction.bristle_damping, kPerMmFromPerM, 0.0, 1e5},
+      {"viscous_friction_N_s_per_m", &friction.viscous, kPerMmFromPerM, 0.0, 1e5},
+      {"bristle_elastic_share", &friction.elastic_share, 1.0, 0.0, 0.99},
+      {"screw_lead_mm", &screw.lead, 1.0, 0.1, 1000.0},
+      {"screw_stiffness_N_per_um", &screw.stiffness, kPerMmFromPerUm, 1e-3, 10000.0},
+      {"screw_damping_N_s_per_m", &screw.damping, kPerMmFromPerM, 0.0, 1e6},
+      {"encoder_um_per_count", &encoder.mm_per_count, kMilli, -10000.0, 10000.0},
+      {"encoder_phase_counts", &encoder.phase, 1.0, 0.0, 1.0},
+  };
+}
+
+int steps_per_period(double period, double physics_step) noexcept {
+  const double steps = period / physics_step;
+  const double whole = std::round(steps);
+  if (!(whole >= 1.0) || whole > 1e6 || std::abs(steps - whole) > kWholeTolerance * whole) {
+    return 0;
+  }
+  return static_cast<int>(whole);
+}
+
+Expected<void> validate(const TableParams& params, double period) {
+  TableParams copy = params;
+  if (Expected<void> result = check("table", table_settings(copy)); !result) {
+    return result;
+  }
+  if (Expected<void> result = check_axis("table.x", copy.axis[kX]); !result) {
+    return result;
+  }
+  if (Expected<void> result = check_axis("table.y", copy.axis[kY]); !result) {
+    return result;
+  }
+  if (steps_per_period(period, params.physics_step) == 0) {
+    return fail(
+        ErrorCode::kMachine,
+        fmt::format(
+            "table.physics_step_ms = {:g} does not divide the interpolation period of {:g} ms",
+            params.physics_step / kMilli, period / kMilli));
+  }
+  return {};
+}
+
+}  // namespace twin::hal
