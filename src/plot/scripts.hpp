@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/figure_data.hpp"
+
+namespace twin::plot {
+
+/// A gnuplot script under its figure's name.
+struct Script {
+  std::string name;  ///< of the figure, as in "contour"
+  std::string text;
+};
+
+/// Magnification 1, 2 or 5 times a power of ten at which the largest error spans about a twentieth
+/// of the picture.
+///
+/// @param extent            size of the path [mm]
+/// @param largest_error_um  [um]
+/// @returns at least 1
+double magnification(double extent, double largest_error_um);
+
+/// The scripts of all figures of a run or of a plan.
+///
+/// @param title      above every figure; any text
+std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
+                                   bool plan_only);
+
+}  // namespace twin::plot
