@@ -23,9 +23,9 @@ const std::vector<std::vector<Point2>> kStraight = {
      {50.5, 19.2},
      {57.0, 22.4}},
     // rear of the dorsal fin
-    {{57.0, 22.4}, {54.9, 19.0}, {54.7, 15.0}, {57.2, 11.0}},
+    {{57.0, 22.4}, {55.0, 19.4}, {54.3, 16.0}, {55.6, 11.2}},
     // back behind the fin, tail stock, front of the upper fluke
-    {{57.2, 11.0},
+    {{55.6, 11.2},
      {63.0, 9.8},
      {70.0, 7.8},
      {77.0, 5.6},
@@ -92,7 +92,7 @@ OutlineSpec dolphin() {
   spec.path_length = 453.75;
   spec.start_curve = 2;
   spec.start_fraction = 0.4;
-  spec.approach_side = 1.0;
+  spec.approach_side = -1.0;
   return spec;
 }
 

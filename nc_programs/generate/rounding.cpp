@@ -54,7 +54,7 @@ Round round_corner(const FairCurve& before, const FairCurve& after, const RoundS
   const Frame out = after.at(after.begin());
   const double turn = std::atan2(cross(in.tangent, out.tangent), in.tangent.dot(out.tangent));
   const double peak = turn > 0.0 ? shape.peak : -shape.peak;
-  const double d = shape.transition;
+  const double d = std::min(shape.transition, 0.7 * std::abs(turn) / shape.peak);
   // First guess: straight legs. The round turns by about peak (l - d) and its chord spans the
   // corner.
   double length = std::abs(turn) / shape.peak + d;

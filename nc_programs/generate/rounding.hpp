@@ -8,8 +8,10 @@ namespace twin::programs {
 
 /// Shape of the rounds.
 struct RoundShape {
-  double peak = 1.05;       ///< largest curvature [1/mm]
-  double transition = 1.0;  ///< length over which the curvature rises to it and falls again [mm]
+  double peak = 1.05;  ///< largest curvature [1/mm]
+  /// Length d over which the curvature rises to it and falls again [mm]; less at a corner of few
+  /// degrees.
+  double transition = 1.0;
 };
 
 /// Round of a corner between two curves, with continuous curvature.
