@@ -28,19 +28,19 @@ enum class State : std::uint8_t { kUnconfigured, kInactive, kActive };
 
 /// What a controller must know of a machine before it moves.
 struct MachineInfo {
-  std::string name;                             ///< "mujoco", "ideal", "rig"
-  bool simulated = true;                        ///< false only where metal moves
-  bool has_truth = true;                        ///< truth() means something
-  bool follows_reference = false;               ///< position equals the reference handed to write(); measured values
-                                                ///< are those of truth() after write()
-  std::array<double, kServoAxes> mm_per_count{};     ///< encoder scale, signed [mm/count]
+  std::string name;                ///< "mujoco", "ideal", "rig"
+  bool simulated = true;           ///< false only where metal moves
+  bool has_truth = true;           ///< truth() means something
+  bool follows_reference = false;  ///< position equals the reference handed to write(); measured
+                                   ///< values are those of truth() after write()
+  std::array<double, kServoAxes> mm_per_count{};       ///< encoder scale, signed [mm/count]
   std::array<double, kServoAxes> mm_per_s_per_volt{};  ///< V-REF scale, signed [mm/s/V]
 };
 
 /// A machine behind its wires: the seam between controller and plant.
 ///
-/// Order in a period: read(), interpolate, servo, write() last. For a simulated machine one period of time passes
-/// inside read(); for a real one it passes on the wall clock.
+/// Order in a period: read(), interpolate, servo, write() last. For a simulated machine one period
+/// of time passes inside read(); for a real one it passes on the wall clock.
 class Machine {
  public:
   Machine() = default;
@@ -55,7 +55,8 @@ class Machine {
   /// Switches the drives on at the present position, which becomes zero counts. Not real-time safe.
   virtual Expected<void> activate() = 0;
 
-  /// Lets one period pass (simulated machines) and fetches the inputs of this instant. Real-time safe.
+  /// Lets one period pass (simulated machines) and fetches the inputs of this instant. Real-time
+  /// safe.
   virtual Status read(Inputs& inputs) noexcept = 0;
   /// Hands over the outputs that hold until the next write(). Real-time safe.
   virtual Status write(const Outputs& outputs) noexcept = 0;

@@ -12,15 +12,17 @@ enum Axis : std::size_t { kX = 0, kY = 1 };
 
 /// Controller to machine, written once a period.
 struct Outputs {
-  std::array<double, kServoAxes> volts{};       ///< drive command V-REF [V], +-10
-  std::array<bool, kServoAxes> servo_on{};      ///< /S-ON of each drive
-  std::array<double, 3> position_reference{};   ///< set point x, y, z [mm], for axes whose loop is closed in the
-                                                ///< machine: all of the ideal machine, the Z pen slide of the table
+  std::array<double, kServoAxes> volts{};   ///< drive command V-REF [V], +-10
+  std::array<bool, kServoAxes> servo_on{};  ///< /S-ON of each drive
+  std::array<double, 3>
+      position_reference{};  ///< set point x, y, z [mm], for axes whose loop is closed in the
+                             ///< machine: all of the ideal machine, the Z pen slide of the table
 };
 
 /// Machine to controller, read once a period.
 struct Inputs {
-  std::array<std::int64_t, kServoAxes> counts{};  ///< encoder, quadrature edges since activation [counts]
+  std::array<std::int64_t, kServoAxes>
+      counts{};  ///< encoder, quadrature edges since activation [counts]
   std::array<bool, kServoAxes> servo_ready{};     ///< /S-RDY
   std::array<bool, kServoAxes> alarm{};           ///< true: drive alarm
   std::array<bool, kServoAxes> limit_positive{};  ///< true: P-OT reached

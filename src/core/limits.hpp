@@ -6,10 +6,10 @@ namespace twin {
 
 /// What the machine may be asked to do along its path.
 struct Limits {
-  double feedrate = 200.0;        ///< largest feedrate the machine accepts [mm/s]
-  double rapid_feedrate = 100.0;  ///< feedrate of G00 [mm/s]
-  double acceleration = 2450.0;   ///< A_max, tangential and normal, each [mm/s^2]
-  double jerk = 50000.0;          ///< J_max, tangential [mm/s^3]
+  double feedrate = 200.0;                 ///< largest feedrate the machine accepts [mm/s]
+  double rapid_feedrate = 100.0;           ///< feedrate of G00 [mm/s]
+  double acceleration = 2450.0;            ///< A_max, tangential and normal, each [mm/s^2]
+  double jerk = 50000.0;                   ///< J_max, tangential [mm/s^3]
   Vec3 travel_min{-200.0, -200.0, -60.0};  ///< lower ends of travel (x, y, z) [mm]
   Vec3 travel_max{200.0, 200.0, 60.0};     ///< upper ends of travel (x, y, z) [mm]
 };

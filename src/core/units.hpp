@@ -2,9 +2,11 @@
 
 #include <numbers>
 
-/// Conversions between the base units (mm, s, rad, kg, N, N.m, A, V) and what people, files and MuJoCo use.
+/// Conversions between the base units (mm, s, rad, kg, N, N.m, A, V) and what people, files and
+/// MuJoCo use.
 ///
-/// They are called at the edges only: where G-code is read, where text is written, where MuJoCo's metres begin.
+/// They are called at the edges only: where G-code is read, where text is written, where MuJoCo's
+/// metres begin.
 namespace twin::units {
 
 inline constexpr double kMmPerInch = 25.4;

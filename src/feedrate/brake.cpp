@@ -11,10 +11,9 @@ Brake make_brake(const PathMotion& from, const RampLimits& limits) noexcept {
   const double a = from.a;
   const double free = std::sqrt(std::max(j * from.v + 0.5 * a * a, 0.0));
   const double peak = std::max(std::min(free, a_max), -a);
-  const double hold =
-      free > peak && peak > 0.0
-          ? std::max((from.v + 0.5 * a * a / j - peak * peak / j) / peak, 0.0)
-          : 0.0;
+  const double hold = free > peak && peak > 0.0
+                          ? std::max((from.v + 0.5 * a * a / j - peak * peak / j) / peak, 0.0)
+                          : 0.0;
   const std::array<std::array<double, 2>, 3> steps{
       {{(a + peak) / j, -j}, {hold, 0.0}, {peak / j, j}}};
   Brake brake;

@@ -17,15 +17,17 @@ namespace twin::feedrate {
 ///        /     \________/        \______/       \_/     \.
 ///       start   knot  knot       knot          knot      end
 ///
-/// Where the limit is lowest, the feedrate should just touch it with no acceleration: that is a knot. So:
+/// Where the limit is lowest, the feedrate should just touch it with no acceleration: that is a
+/// knot. So:
 ///   1. Take one hump from start to end under the largest limit there.
 ///   2. Find, of all zones in which it is too fast, the one with the lowest limit.
-///   3. Put a knot where the hump enters it too fast and where it leaves it too fast (or, if the hump is too
+///   3. Put a knot where the hump enters it too fast and where it leaves it too fast (or, if the
+///   hump is too
 ///      fast only inside, lower the hump's cap), and do the same for the pieces.
-/// Zones with low limits are settled first, and every new knot lowers the feedrate everywhere, so a zone that was
-/// kept stays kept; a hump is the fastest motion between its knots. The limits of the method: a falling or
-/// rising staircase of limits is taken one step at a time wherever the steps bind, a = 0 at each, which is feasible but
-/// slower than gliding along it.
+/// Zones with low limits are settled first, and every new knot lowers the feedrate everywhere, so a
+/// zone that was kept stays kept; a hump is the fastest motion between its knots. The limits of the
+/// method: a falling or rising staircase of limits is taken one step at a time wherever the steps
+/// bind, a = 0 at each, which is feasible but slower than gliding along it.
 class Envelope {
  public:
   explicit Envelope(const RampLimits& limits) : limits_(limits) {}

@@ -6,12 +6,13 @@
 namespace twin::feedrate {
 namespace {
 
-constexpr double kDistanceRounding = 1e-9;  // [mm]; a ramp that is longer by this much is made steeper by it
+constexpr double kDistanceRounding =
+    1e-9;  // [mm]; a ramp that is longer by this much is made steeper by it
 
 /// Peak v of a hump of length d without hold: ramp_distance(va, v) + ramp_distance(v, vb) = d.
 ///
-/// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap; regula falsi with
-/// bisection where it stalls (Illinois rule).
+/// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap;
+/// regula falsi with bisection where it stalls (Illinois rule).
 double peak_without_hold(double va, double vb, double d, double cap,
                          const RampLimits& limits) noexcept {
   const auto excess = [&](double v) {

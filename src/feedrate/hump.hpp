@@ -6,8 +6,8 @@ namespace twin::feedrate {
 
 /// A place of the path that is passed at a given feedrate with no tangential acceleration.
 struct Knot {
-  double s = 0.0;  ///< distance along the path [mm]
-  double v = 0.0;  ///< feedrate [mm/s]
+  double s = 0.0;            ///< distance along the path [mm]
+  double v = 0.0;            ///< feedrate [mm/s]
   bool is_at_limit = false;  ///< v is the limit of the place, not what its neighbours leave of it
 };
 
@@ -30,7 +30,8 @@ struct Hump {
 /// Whether a ramp from one knot to the other fits between them (to rounding).
 bool is_reachable(const Knot& a, const Knot& b, const RampLimits& limits) noexcept;
 
-/// The hump between two knots of which each is reachable from the other; cap >= max(a.v, b.v) [mm/s].
+/// The hump between two knots of which each is reachable from the other; cap >= max(a.v, b.v)
+/// [mm/s].
 Hump make_hump(const Knot& a, const Knot& b, double cap, const RampLimits& limits) noexcept;
 
 /// Part of the path on which a hump is faster than v; empty (begin >= end) where it never is.

@@ -62,23 +62,24 @@ void LookAhead::append_junction(const path::Segment& before, const path::Segment
   const double curvature =
       std::max(curvature_near_end(before, true, reach), curvature_near_end(after, false, reach));
   const double corner_error = std::min(before.corner_error, after.corner_error);
-  const double limit = std::min(
-      corner_model_feedrate(turn, corner_error, model_),
-      corner_acceleration_feedrate(turn, curvature, limits_.acceleration, period_));
+  const double limit =
+      std::min(corner_model_feedrate(turn, corner_error, model_),
+               corner_acceleration_feedrate(turn, curvature, limits_.acceleration, period_));
   zones_.push_back({length_, length_, limit});
   limit_cluster(turn, length_);
 }
 
-/// Corners that one period may hold together count together: where the turns of several corners, over the distance l from
-/// the first to the last, sum to phi, the feedrate either keeps them apart (v T <= l) or obeys the corner rule for phi.
+/// Corners that one period may hold together count together: where the turns of several corners,
+/// over the distance l from the first to the last, sum to phi, the feedrate either keeps them apart
+/// (v T <= l) or obeys the corner rule for phi.
 void LookAhead::limit_cluster(double turn, double s) {
   LimitZone& latest = zones_.back();
   double sum = turn;
   auto it = turns_.rbegin();
   for (; it != turns_.rend() && s - it->s < latest.limit * period_; ++it) {
     sum += it->angle;
-    const double together = corner_acceleration_feedrate(std::min(sum, M_PI), 0.0,
-                                                         limits_.acceleration, period_);
+    const double together =
+        corner_acceleration_feedrate(std::min(sum, M_PI), 0.0, limits_.acceleration, period_);
     const double limit = std::max((s - it->s) / period_, together);
     latest.limit = std::min(latest.limit, limit);
     zones_[it->zone].limit = std::min(zones_[it->zone].limit, limit);
@@ -119,8 +120,9 @@ void LookAhead::plan(bool is_last) {
   emit_covered(is_last);
 }
 
-/// Last place of the plan that the window's end does not slow down: a knot at its own limit or a hold under a cap. Where
-/// there is none, the last peak; where not even that, the start, and the window grows.
+/// Last place of the plan that the window's end does not slow down: a knot at its own limit or a
+/// hold under a cap. Where there is none, the last peak; where not even that, the start, and the
+/// window grows.
 Knot LookAhead::commit_knot(bool is_last) const {
   if (is_last) {
     return plan_.back().b;
@@ -172,7 +174,8 @@ void LookAhead::emit_covered(bool is_last) {
     window_.pop_front();
     const double end = begin + planned.segment.length;
     take_phases(begin, end, next_phase, planned);
-    for (; next_zone < zones_.size() && zones_[next_zone].end <= end + kPlaceRounding; ++next_zone) {
+    for (; next_zone < zones_.size() && zones_[next_zone].end <= end + kPlaceRounding;
+         ++next_zone) {
       const LimitZone& zone = zones_[next_zone];
       planned.limits.push_back({zone.begin - begin, zone.end - begin, zone.limit});
     }

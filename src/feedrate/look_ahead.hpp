@@ -13,15 +13,17 @@ namespace twin::feedrate {
 
 /// Look-ahead: segments in, segments with feedrate out.
 ///
-/// It keeps a window of up to `look_ahead` segments whose feedrate is not settled, plans them so that the path could
-/// end at rest at the window's end, and settles the part that more segments would not change:
+/// It keeps a window of up to `look_ahead` segments whose feedrate is not settled, plans them so
+/// that the path could end at rest at the window's end, and settles the part that more segments
+/// would not change:
 ///
 ///   settled | start ....... window ....... commit | braking to rest at the window's end
-///           ^ knot of the last plan               ^ last knot or hold that the end does not slow down
+///           ^ knot of the last plan               ^ last knot or hold that the end does not slow
+///           down
 ///
-/// Since every plan ends at rest inside what is known, the settled part can always be followed by a feasible one:
-/// should a new plan fail, the rest of the last one is taken, which only costs time. The result depends on the segments
-/// alone, not on when they arrive.
+/// Since every plan ends at rest inside what is known, the settled part can always be followed by a
+/// feasible one: should a new plan fail, the rest of the last one is taken, which only costs time.
+/// The result depends on the segments alone, not on when they arrive.
 class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;

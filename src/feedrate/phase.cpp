@@ -33,7 +33,8 @@ Phase remainder_after(const Phase& phase, double t) noexcept {
 
 namespace {
 
-/// Appends one ramp that covers `distance` from s; its shape is that of ramp_time, stretched to fit to rounding.
+/// Appends one ramp that covers `distance` from s; its shape is that of ramp_time, stretched to fit
+/// to rounding.
 void append_ramp(double s, double v1, double v2, double distance, const RampLimits& limits,
                  std::vector<Phase>& phases) {
   if (!(distance > 0.0) || v1 == v2) {

@@ -28,7 +28,8 @@ inline PathMotion motion_at(const Phase& phase, double t) noexcept {
           phase.v + t * (phase.a + t * phase.j / 2.0), phase.a + t * phase.j};
 }
 
-/// Time into a phase, in [0, duration], at which it reaches the distance s; feedrate must not be negative in it.
+/// Time into a phase, in [0, duration], at which it reaches the distance s; feedrate must not be
+/// negative in it.
 double time_at(const Phase& phase, double s) noexcept;
 
 /// The phase less its first part of time t.

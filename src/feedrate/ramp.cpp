@@ -18,7 +18,8 @@ double ramp_distance(double v1, double v2, const RampLimits& limits) noexcept {
 
 namespace {
 
-/// Root x >= 0 of j x^3 + 2 v x = d: half the ramp's time where A is not reached, Newton from above.
+/// Root x >= 0 of j x^3 + 2 v x = d: half the ramp's time where A is not reached, Newton from
+/// above.
 double half_time_without_hold(double v, double d, double j) noexcept {
   double x = std::cbrt(d / j);
   if (v > 0.0) {

@@ -46,8 +46,7 @@ void append_segment_limits(const path::Segment& segment, double s0, const Planni
     append_curve_limits(*curve, segment.feedrate, s0, model, limits, zones);
     return;
   }
-  const double curvature =
-      std::max(segment.begin.curvature.norm(), segment.end.curvature.norm());
+  const double curvature = std::max(segment.begin.curvature.norm(), segment.end.curvature.norm());
   const double limit = curvature_feedrate(curvature, segment.feedrate, model, limits);
   zones.push_back({s0, s0 + segment.length, limit});
 }

@@ -8,10 +8,11 @@
 
 namespace twin::feedrate {
 
-/// Appends the feedrate limits inside one segment that begins at s0: where the curvature is, not over the whole curve.
+/// Appends the feedrate limits inside one segment that begins at s0: where the curvature is, not
+/// over the whole curve.
 ///
-/// A line has one zone, an arc one, a curve as many as its curvature needs: neighbouring zones whose limits differ by
-/// less than 1 % become one, with the lower limit.
+/// A line has one zone, an arc one, a curve as many as its curvature needs: neighbouring zones
+/// whose limits differ by less than 1 % become one, with the lower limit.
 ///
 /// @param s0  place of the segment's start [mm]
 void append_segment_limits(const path::Segment& segment, double s0, const PlanningModel& model,

@@ -23,7 +23,8 @@ enum class PathMode : std::uint8_t {
 ///
 /// Point at fraction f in [0, 1] of the arc, with a(f) = f sweep:
 ///   centre + (radius + f radius_change) (cos a(f) e1 + sin a(f) e2) + f rise (e1 x e2)
-/// At f = 0 it is the block's start, at f = 1 its end. radius_change is the rounding of the program's numbers.
+/// At f = 0 it is the block's start, at f = 1 its end. radius_change is the rounding of the
+/// program's numbers.
 struct ArcGeometry {
   Vec3 centre = Vec3::Zero();  ///< centre, at the height of the start point [mm]
   Vec3 e1 = Vec3::UnitX();     ///< unit vector from the centre to the start point

@@ -182,9 +182,8 @@ path::PathPoint Interpolator::locate(const feedrate::PathMotion& m) noexcept {
 }
 
 void Interpolator::place(SetPoint& out) noexcept {
-  feedrate::PathMotion m = is_done_ || mode_ == Mode::kRest
-                               ? feedrate::PathMotion{motion().s, 0.0, 0.0}
-                               : motion();
+  feedrate::PathMotion m =
+      is_done_ || mode_ == Mode::kRest ? feedrate::PathMotion{motion().s, 0.0, 0.0} : motion();
   m.s = std::clamp(m.s, 0.0, current_->segment.length);
   const path::PathPoint at = locate(m);
   out.position = at.position;

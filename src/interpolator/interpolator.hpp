@@ -35,13 +35,13 @@ enum class Status : std::uint8_t {
 
 /// One set point per interpolation period.
 ///
-/// Time runs through the phases of the planned segments without regard to where they end, so the remainder of a period is
-/// carried from one segment into the next: every period covers its full distance, and the machining time is that of the
-/// plan, rounded up to a period.
+/// Time runs through the phases of the planned segments without regard to where they end, so the
+/// remainder of a period is carried from one segment into the next: every period covers its full
+/// distance, and the machining time is that of the plan, rounded up to a period.
 ///
-/// brake() leaves the plan for the quickest way to rest on the same path. resume() returns to it: the plan's time then
-/// runs at a rate that grows smoothly from 0 to 1, so no limit of the plan is exceeded by more than the
-/// rate's own small change.
+/// brake() leaves the plan for the quickest way to rest on the same path. resume() returns to it:
+/// the plan's time then runs at a rate that grows smoothly from 0 to 1, so no limit of the plan is
+/// exceeded by more than the rate's own small change.
 class Interpolator {
  public:
   /// @param source  outlives the interpolator
@@ -82,17 +82,17 @@ class Interpolator {
   const feedrate::PlannedSegment* current_ = nullptr;
   Mode mode_ = Mode::kPlan;
   bool is_done_ = false;
-  bool is_waiting_ = false;  // a step found no segment; its time is still in pending_
-  std::size_t phase_ = 0;    // of the current segment
-  double time_ = 0.0;        // since the start of the phase, or of braking [s]
-  double pending_ = 0.0;     // time of this period that has not passed yet [s]
-  double rate_time_ = -1.0;  // time since resume() [s]; negative: the plan runs at full rate
-  double rate_ = 1.0;        // rate of the plan's time
-  double rate_change_ = 0.0; // its derivative [1/s]
-  feedrate::Brake brake_{};  // s from the start of the current segment
-  std::size_t mark_ = 0;     // block of the current segment
-  std::size_t zone_ = 0;     // limit zone of the current segment
-  double u_ = 0.0;           // parameter of the last set point on the current curve
+  bool is_waiting_ = false;   // a step found no segment; its time is still in pending_
+  std::size_t phase_ = 0;     // of the current segment
+  double time_ = 0.0;         // since the start of the phase, or of braking [s]
+  double pending_ = 0.0;      // time of this period that has not passed yet [s]
+  double rate_time_ = -1.0;   // time since resume() [s]; negative: the plan runs at full rate
+  double rate_ = 1.0;         // rate of the plan's time
+  double rate_change_ = 0.0;  // its derivative [1/s]
+  feedrate::Brake brake_{};   // s from the start of the current segment
+  std::size_t mark_ = 0;      // block of the current segment
+  std::size_t zone_ = 0;      // limit zone of the current segment
+  double u_ = 0.0;            // parameter of the last set point on the current curve
   bool has_u_ = false;
   nurbs::Derivatives at_u_{};
 };

@@ -5,16 +5,18 @@
 
 namespace twin::interpolator {
 
-/// Second-order Taylor step of the parameter over a period T at feedrate V and tangential acceleration A:
-///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)                [WY, Eq. 23]
+/// Second-order Taylor step of the parameter over a period T at feedrate V and tangential
+/// acceleration A:
+///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)                [WY, Eq.
+///   23]
 /// (printed there with |C'|^3 inside the bracket that 1/|C'| stands before: the same).
 /// @note Real-time safe.
 double taylor_step(const nurbs::Derivatives& at, double u, double feedrate, double acceleration,
                    double period) noexcept;
 
-/// Parameter of the place at arc length s: the Taylor step predicts it, and where it misses s by more than the arc
-/// length can tell, Newton steps on s(u) correct it. The step from one sample to the next is then
-/// exact, and no error adds up along the curve.
+/// Parameter of the place at arc length s: the Taylor step predicts it, and where it misses s by
+/// more than the arc length can tell, Newton steps on s(u) correct it. The step from one sample to
+/// the next is then exact, and no error adds up along the curve.
 /// @note Real-time safe.
 double corrected_parameter(const nurbs::Curve& curve, const nurbs::ArcLength& arc_length, double s,
                            double predicted) noexcept;

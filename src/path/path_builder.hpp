@@ -15,8 +15,9 @@ namespace twin::path {
 
 /// Turns blocks into segments, one after the other, looking no further ahead than a curve needs.
 ///
-/// Successive G01 blocks that meet the criterion for continuous short blocks (CSB, Section 2.1 of the paper) form a run;
-/// RunFitter makes curves of it. Every other block becomes the line, arc or rest that it is.
+/// Successive G01 blocks that meet the criterion for continuous short blocks (CSB, Section 2.1 of
+/// the paper) form a run; RunFitter makes curves of it. Every other block becomes the line, arc or
+/// rest that it is.
 class PathBuilder {
  public:
   using Sink = std::function<void(Segment&&)>;
@@ -38,7 +39,7 @@ class PathBuilder {
   Limits limits_;
   Sink sink_;
   RunFitter run_;
-  gcode::Block last_;          // last block of the run
+  gcode::Block last_;  // last block of the run
   std::int64_t next_block_ = 0;
 };
 

@@ -15,8 +15,8 @@ constexpr std::size_t kJointPoints = 6;  // points on either side that settle a 
 
 }  // namespace
 
-RunFitter::RunFitter(const PathSettings& settings, const PlanningModel& model,
-                     const Limits& limits, Sink sink)
+RunFitter::RunFitter(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
+                     Sink sink)
     : settings_(settings), model_(model), limits_(limits), sink_(std::move(sink)) {}
 
 double RunFitter::tolerance() const {
@@ -47,7 +47,8 @@ void RunFitter::finish() {
   advance_all();
 }
 
-/// Blocks in the next piece: up to max_segments of one feedrate, leaving no crumbs for the last one.
+/// Blocks in the next piece: up to max_segments of one feedrate, leaving no crumbs for the last
+/// one.
 std::size_t RunFitter::piece_length() const {
   const auto most = static_cast<std::size_t>(settings_.max_segments);
   const auto least = static_cast<std::size_t>(settings_.min_segments);
@@ -82,7 +83,8 @@ void RunFitter::emit_piece(std::size_t count) {
   }
 }
 
-/// The curve leaves the tolerance in block `worst`: that one stays a line, what is before it ends there.
+/// The curve leaves the tolerance in block `worst`: that one stays a line, what is before it ends
+/// there.
 void RunFitter::emit_broken(std::size_t worst) {
   std::size_t before = worst;
   while (before > 0) {
@@ -121,15 +123,16 @@ bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, st
   measure(fitted);
   Segment segment = make_curve_segment(std::move(fitted));
   segment.feedrate = std::min(blocks_[first_].block.feedrate, limits_.feedrate);
-  segment.corner_error = blocks_[first_].block.tolerance > 0.0 ? blocks_[first_].block.tolerance
-                                                               : model_.corner_error;
+  segment.corner_error =
+      blocks_[first_].block.tolerance > 0.0 ? blocks_[first_].block.tolerance : model_.corner_error;
   const auto& curve = std::get<FittedCurve>(segment.geometry);
   segment.marks.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const RunBlock& run = blocks_[first_ + i];
-    const double s = i + 1 < count ? curve.arc_length.s_at(curve.curve, parameters[i + 1])
-                                   : segment.length;
-    segment.marks.push_back({s, (run.block.end - run.block.start).norm(), run.number, run.block.line});
+    const double s =
+        i + 1 < count ? curve.arc_length.s_at(curve.curve, parameters[i + 1]) : segment.length;
+    segment.marks.push_back(
+        {s, (run.block.end - run.block.start).norm(), run.number, run.block.line});
   }
   sink_(std::move(segment));
   return true;

@@ -12,14 +12,17 @@
 
 namespace twin::path {
 
-/// Fits one run of continuous short blocks by successive curves that join with continuous tangent and curvature.
+/// Fits one run of continuous short blocks by successive curves that join with continuous tangent
+/// and curvature.
 ///
-/// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks, each as soon as a few
-/// more points are known. At the joint of two pieces both are given the same first and second derivative with respect to
-/// chord length: those of the interpolating curve through the points around the joint. The influence of a
-/// point on an interpolating cubic falls by about 0.27 a point, so a handful of points settles the joint.
+/// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks, each
+/// as soon as a few more points are known. At the joint of two pieces both are given the same first
+/// and second derivative with respect to chord length: those of the interpolating curve through the
+/// points around the joint. The influence of a point on an interpolating cubic falls by about 0.27
+/// a point, so a handful of points settles the joint.
 ///
-/// A piece that leaves the chord tolerance somewhere is cut there: the block it leaves stays a line.
+/// A piece that leaves the chord tolerance somewhere is cut there: the block it leaves stays a
+/// line.
 class RunFitter {
  public:
   using Sink = std::function<void(Segment&&)>;
@@ -59,7 +62,7 @@ class RunFitter {
   std::vector<RunBlock> blocks_;  // [0, first_) are settled and kept for the next joint only
   std::vector<Vec3> points_;      // start of blocks_[0] and the end of each block
   std::size_t first_ = 0;
-  nurbs::EndCondition begin_;     // of the next piece
+  nurbs::EndCondition begin_;  // of the next piece
 };
 
 }  // namespace twin::path

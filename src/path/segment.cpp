@@ -14,7 +14,8 @@ double stretch(const gcode::ArcGeometry& g, double f) noexcept {
   return std::sqrt(along * along + g.radius_change * g.radius_change + g.rise * g.rise);
 }
 
-/// Arc length from fraction 0 to f, by Gauss-Legendre with four points: the radius changes by a rounding only.
+/// Arc length from fraction 0 to f, by Gauss-Legendre with four points: the radius changes by a
+/// rounding only.
 double length_to(const gcode::ArcGeometry& g, double f) noexcept {
   constexpr std::array<double, 2> kNodes{0.33998104358485626, 0.86113631159405258};
   constexpr std::array<double, 2> kWeights{0.65214515486254614, 0.34785484513745386};
@@ -61,8 +62,9 @@ PathPoint point_at(const Arc& arc, double s) noexcept {
 PathPoint point_from(const nurbs::Derivatives& d) noexcept {
   const double pace = d.first.norm();
   const Vec3 tangent = pace > 0.0 ? Vec3(d.first / pace) : Vec3::UnitX();
-  const Vec3 curvature =
-      pace > 0.0 ? Vec3((d.second - d.second.dot(tangent) * tangent) / (pace * pace)) : Vec3::Zero();
+  const Vec3 curvature = pace > 0.0
+                             ? Vec3((d.second - d.second.dot(tangent) * tangent) / (pace * pace))
+                             : Vec3::Zero();
   return {d.position, tangent, curvature};
 }
 

@@ -48,14 +48,14 @@ struct BlockMark {
 /// One piece of the path: line, arc or curve; or a rest (no length, std::monostate).
 struct Segment {
   std::variant<std::monostate, Line, Arc, FittedCurve> geometry;
-  double length = 0.0;         ///< arc length [mm]
-  double feedrate = 0.0;       ///< programmed feedrate, or the rapid's [mm/s]
-  double corner_error = 0.0;   ///< corner error allowed at its end [mm]
-  double dwell = 0.0;          ///< time at rest [s], where it is a rest
-  bool stops_at_end = false;   ///< the feedrate is zero at its end
+  double length = 0.0;        ///< arc length [mm]
+  double feedrate = 0.0;      ///< programmed feedrate, or the rapid's [mm/s]
+  double corner_error = 0.0;  ///< corner error allowed at its end [mm]
+  double dwell = 0.0;         ///< time at rest [s], where it is a rest
+  bool stops_at_end = false;  ///< the feedrate is zero at its end
   bool is_rapid = false;
-  PathPoint begin;             ///< its first place
-  PathPoint end;               ///< its last place
+  PathPoint begin;               ///< its first place
+  PathPoint end;                 ///< its last place
   std::vector<BlockMark> marks;  ///< the blocks it is made of, in order
 };
 

@@ -11,13 +11,15 @@
 
 namespace twin::runtime {
 
-/// One interpolation period of the controller: the next set point, and its exchange with the machine.
+/// One interpolation period of the controller: the next set point, and its exchange with the
+/// machine.
 ///
 ///   prepare()    interpolator -> set point of the coming period
 ///   exchange()   machine.read -> servo -> machine.write
 ///
-/// The set point does not depend on what is measured, so it is prepared first; a period in which none is there yet need
-/// not let time pass on a simulated machine. Nothing in either call allocates, locks, throws, prints or touches a file.
+/// The set point does not depend on what is measured, so it is prepared first; a period in which
+/// none is there yet need not let time pass on a simulated machine. Nothing in either call
+/// allocates, locks, throws, prints or touches a file.
 class Cycle {
  public:
   /// @param machine  configured and active; null for a plan without a machine

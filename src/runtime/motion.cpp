@@ -139,8 +139,8 @@ MotionEnd Motion::run() {
 }  // namespace
 
 MotionEnd run_motion(Cycle& cycle, interpolator::Interpolator& interpolator, SegmentQueue& segments,
-                     SampleQueue& samples, const Limits& limits, const Pace& pace,
-                     bool has_machine, const std::atomic<bool>& stop) {
+                     SampleQueue& samples, const Limits& limits, const Pace& pace, bool has_machine,
+                     const std::atomic<bool>& stop) {
   return Motion(cycle, interpolator, segments, samples, limits, pace, has_machine, stop).run();
 }
 

@@ -41,9 +41,7 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
   PathSettings settings = machine.path;
   settings.short_block_length = fits_curves ? settings.short_block_length : 0.0;
   path::PathBuilder builder(settings, machine.planning, machine.limits,
-                            [&](path::Segment&& segment) {
-                              look_ahead.push(std::move(segment));
-                            });
+                            [&](path::Segment&& segment) { look_ahead.push(std::move(segment)); });
   while (goes_on) {
     auto block = reader.next();
     if (!block) {

@@ -17,7 +17,8 @@ void include(const Vec3& point, Vec3& low, Vec3& high) {
   high = high.cwiseMax(point);
 }
 
-/// Corners of the box of one block. An arc reaches furthest along an axis where its tangent has no part along it.
+/// Corners of the box of one block. An arc reaches furthest along an axis where its tangent has no
+/// part along it.
 void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   include(block.end, low, high);
   if (block.motion != gcode::Motion::kArc) {
@@ -42,11 +43,12 @@ Expected<void> check_travel(const gcode::Block& block, const Vec3& low, const Ve
     if (is_low || high[axis] > limits.travel_max[axis] + kRounding) {
       const double limit = is_low ? limits.travel_min[axis] : limits.travel_max[axis];
       const double place = is_low ? low[axis] : high[axis];
-      return tl::unexpected(Error{
-          ErrorCode::kProgram,
-          fmt::format("axis {} would go to {:.4f} mm, its travel ends at {:g} mm; nothing was moved",
-                      "XYZ"[axis], place, limit),
-          file, static_cast<int>(block.line), 0});
+      return tl::unexpected(
+          Error{ErrorCode::kProgram,
+                fmt::format(
+                    "axis {} would go to {:.4f} mm, its travel ends at {:g} mm; nothing was moved",
+                    "XYZ"[axis], place, limit),
+                file, static_cast<int>(block.line), 0});
     }
   }
   return {};
@@ -71,8 +73,8 @@ Expected<ProgramFigures> check_program(const std::filesystem::path& program,
       break;
     }
     include_block(**block, figures.box_min, figures.box_max);
-    if (auto inside = check_travel(**block, figures.box_min, figures.box_max, limits,
-                                   program.string());
+    if (auto inside =
+            check_travel(**block, figures.box_min, figures.box_max, limits, program.string());
         !inside) {
       return tl::unexpected(inside.error());
     }

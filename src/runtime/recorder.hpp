@@ -21,8 +21,8 @@ namespace twin::runtime {
 
 /// Turns the stream of samples into the trace and the figures of the summary, in bounded memory.
 ///
-/// For the contour error it reads the program a second time by itself, as far ahead of the samples as it needs, so
-/// that its result does not depend on how far the planner happens to be.
+/// For the contour error it reads the program a second time by itself, as far ahead of the samples
+/// as it needs, so that its result does not depend on how far the planner happens to be.
 class Recorder {
  public:
   struct Options {
@@ -30,8 +30,8 @@ class Recorder {
     std::filesystem::path program;
     gcode::ReaderOptions reader;
     Limits limits;
-    double period = 0.001;     ///< [s]
-    bool has_machine = true;   ///< else only set points are recorded
+    double period = 0.001;    ///< [s]
+    bool has_machine = true;  ///< else only set points are recorded
   };
 
   static Expected<Recorder> create(const Options& options);

@@ -74,8 +74,8 @@ class Run {
   Cycle cycle_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_ended_{false};
-  PlanFigures plan_figures_;              // written by the planning thread, read after its end
-  std::optional<Error> plan_error_;       // the same
+  PlanFigures plan_figures_;                 // written by the planning thread, read after its end
+  std::optional<Error> plan_error_;          // the same
   MotionEnd motion_end_ = MotionEnd::kDone;  // written by the motion thread, read after its end
   std::optional<Error> record_error_;
   int shown_percent_ = -1;
@@ -88,10 +88,9 @@ gcode::ReaderOptions reader_options(const RunRequest& request) {
 }
 
 void Run::plan(gcode::Reader reader) {
-  auto figures = plan_program(reader, request_.machine, request_.interpolator != "linear",
-                              [this](feedrate::PlannedSegment&& planned) {
-                                return segments_.push(std::move(planned));
-                              });
+  auto figures = plan_program(
+      reader, request_.machine, request_.interpolator != "linear",
+      [this](feedrate::PlannedSegment&& planned) { return segments_.push(std::move(planned)); });
   if (figures) {
     plan_figures_ = *figures;
   } else {
@@ -111,7 +110,8 @@ void Run::move() {
   has_ended_.store(true, std::memory_order_release);
 }
 
-/// Drains the samples until the motion has ended; after an error goes on draining, so that the machine can brake.
+/// Drains the samples until the motion has ended; after an error goes on draining, so that the
+/// machine can brake.
 void Run::record() {
   trace::Sample sample;
   for (;;) {
@@ -159,20 +159,23 @@ std::optional<Error> Run::failure() const {
   if (plan_error_) {
     return plan_error_;
   }
-  const auto at = fmt::format("at t = {:.3f} s, NC line {}", recorder_.last().t,
-                              recorder_.last().line);
+  const auto at =
+      fmt::format("at t = {:.3f} s, NC line {}", recorder_.last().t, recorder_.last().line);
   switch (motion_end_) {
     case MotionEnd::kDone:
       return std::nullopt;
     case MotionEnd::kInterrupted:
       return Error{ErrorCode::kInterrupted, "interrupted: stopped on the path " + at, {}, 0, 0};
     case MotionEnd::kMachineError:
-      return Error{ErrorCode::kMachine, fmt::format("machine '{}' failed {}: {}",
-                                                    request_.hal->info().name, at,
-                                                    request_.hal->last_error()), {}, 0, 0};
+      return Error{ErrorCode::kMachine,
+                   fmt::format("machine '{}' failed {}: {}", request_.hal->info().name, at,
+                               request_.hal->last_error()),
+                   {},
+                   0,
+                   0};
     case MotionEnd::kOverrun:
-      return Error{ErrorCode::kMachine, "samples came faster than they could be written, " + at,
-                   {}, 0, 0};
+      return Error{
+          ErrorCode::kMachine, "samples came faster than they could be written, " + at, {}, 0, 0};
   }
   return std::nullopt;
 }

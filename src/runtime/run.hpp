@@ -15,25 +15,27 @@ namespace twin::runtime {
 
 /// What to run.
 struct RunRequest {
-  std::filesystem::path program;     ///< NC program
+  std::filesystem::path program;  ///< NC program
   config::MachineFile machine;
-  hal::Machine* hal = nullptr;       ///< unconfigured machine; null: plan only
-  std::string interpolator = "nurbs";  ///< "nurbs" fits curves, "linear" leaves the blocks as they are
-  std::optional<double> feedrate;    ///< replaces the program's F words [mm/s]
-  std::filesystem::path directory;   ///< of the results; made when missing
-  bool is_wall_clock = false;        ///< one period of the cycle per period of the wall clock
-  const std::atomic<bool>* stop = nullptr;         ///< set to brake on the path and end
-  std::function<void(double)> progress;            ///< gets the done share, 0 to 1
+  hal::Machine* hal = nullptr;  ///< unconfigured machine; null: plan only
+  std::string interpolator =
+      "nurbs";                      ///< "nurbs" fits curves, "linear" leaves the blocks as they are
+  std::optional<double> feedrate;   ///< replaces the program's F words [mm/s]
+  std::filesystem::path directory;  ///< of the results; made when missing
+  bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock
+  const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
+  std::function<void(double)> progress;     ///< gets the done share, 0 to 1
 };
 
 /// How far a run got.
 struct RunResult {
   metrics::Summary summary;
-  std::optional<Error> failure;  ///< why it ended early; what was recorded is kept, named as partial
+  std::optional<Error>
+      failure;  ///< why it ended early; what was recorded is kept, named as partial
 };
 
-/// Plans a program, moves the machine along it and records everything: planning thread, motion thread, and the
-/// caller's as recorder.
+/// Plans a program, moves the machine along it and records everything: planning thread, motion
+/// thread, and the caller's as recorder.
 ///
 /// Before anything moves the whole program is read and held against the travel.
 ///

@@ -12,16 +12,17 @@ namespace twin::runtime {
 
 /// The bounded buffer of planned segments between planning thread and motion thread.
 ///
-/// A fixed number of segments goes round: the planning thread takes a free one, fills it (allocating as it must) and
-/// pushes it; the motion thread pops it, follows it, and gives it back. So the motion thread neither allocates nor
-/// frees, and a planner that is far ahead waits.
+/// A fixed number of segments goes round: the planning thread takes a free one, fills it
+/// (allocating as it must) and pushes it; the motion thread pops it, follows it, and gives it back.
+/// So the motion thread neither allocates nor frees, and a planner that is far ahead waits.
 class SegmentQueue final : public interpolator::SegmentSource {
  public:
   explicit SegmentQueue(std::size_t capacity);
 
   // Planning thread.
 
-  /// Hands a segment over; waits while the buffer is full. @returns false if the motion was stopped meanwhile
+  /// Hands a segment over; waits while the buffer is full. @returns false if the motion was stopped
+  /// meanwhile
   bool push(feedrate::PlannedSegment&& segment);
   /// No more segments follow.
   void close() noexcept { is_closed_.store(true, std::memory_order_release); }

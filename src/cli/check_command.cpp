@@ -1,0 +1,51 @@
+#include <fmt/core.h>
+
+#include "cli/commands.hpp"
+#include "config/find_file.hpp"
+#include "runtime/program_check.hpp"
+
+namespace twin::cli {
+namespace {
+
+Expected<void> check_one(const std::string& name, const config::MachineFile& machine,
+                         const Options& options) {
+  auto program = config::find_program(name);
+  if (!program) {
+    return tl::unexpected(program.error());
+  }
+  gcode::ReaderOptions reading;
+  reading.feedrate = feedrate_of(options);
+  auto figures = runtime::check_program(*program, reading, machine.limits);
+  if (!figures) {
+    return tl::unexpected(figures.error());
+  }
+  if (!options.quiet) {
+    fmt::print("{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm\n",
+               program->string(), figures->blocks, figures->length, figures->box_min.x(),
+               figures->box_max.x(), figures->box_min.y(), figures->box_max.y(),
+               figures->box_min.z(), figures->box_max.z());
+  }
+  return {};
+}
+
+}  // namespace
+
+/// Checks all the programs, so that one call shows what is wrong with each.
+Expected<void> check_command(const Options& options) {
+  auto machine = read_machine(options);
+  if (!machine) {
+    return tl::unexpected(machine.error());
+  }
+  Expected<void> result;
+  for (const std::string& name : options.programs) {
+    if (auto checked = check_one(name, *machine, options); !checked) {
+      if (!result) {
+        fmt::print(stderr, "twin: {}\n", to_string(result.error()));
+      }
+      result = checked;
+    }
+  }
+  return result;
+}
+
+}  // namespace twin::cli

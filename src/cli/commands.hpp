@@ -1,0 +1,16 @@
+#pragma once
+
+#include <atomic>
+
+#include "cli/options.hpp"
+#include "core/error.hpp"
+
+/// The subcommands, one file each. They return what keeps the exit status from being 0.
+namespace twin::cli {
+
+Expected<void> run_command(const Options& options, const std::atomic<bool>& stop);
+Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop);
+Expected<void> check_command(const Options& options);
+Expected<void> render_command(const Options& options);
+
+}  // namespace twin::cli

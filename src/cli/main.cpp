@@ -1,0 +1,112 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <exception>
+
+#include "cli/commands.hpp"
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+
+extern "C" void request_stop(int /*signal*/) { stop_requested.store(true); }
+
+/// The first signal brakes on the path and keeps the results; a second one ends the process as
+/// usual.
+void watch_signals() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+int report(const twin::Expected<void>& result) {
+  if (result) {
+    return 0;
+  }
+  fmt::print(stderr, "twin: {}\n", twin::to_string(result.error()));
+  return twin::exit_status(result.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  using namespace twin::cli;
+  CLI::App app(
+      "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
+      "Start with: twin run dolphin.nc");
+  app.set_version_flag("--version", "twin " TWIN_VERSION);
+  app.require_subcommand(1);
+  Options options;
+
+  CLI::App* run = app.add_subcommand(
+      "run", "Plan a program, move the machine along it, write the results, print the summary");
+  add_planning_options(*run, options);
+  add_result_options(*run, options);
+  add_video_options(*run, options);
+  run->add_option("--hal", options.hal,
+                  "Machine: mujoco is the simulated table, ideal has position = set point")
+      ->check(CLI::IsMember({"mujoco", "ideal"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  run->add_flag("--realtime", options.realtime, "Keep to the wall clock");
+
+  CLI::App* plan =
+      app.add_subcommand("plan", "The same without a machine: set points, planned time, limits");
+  add_planning_options(*plan, options);
+  add_result_options(*plan, options);
+
+  CLI::App* check = app.add_subcommand("check", "Read and verify programs; nothing moves");
+  check->add_option("programs", options.programs, "NC programs: files, or names in nc_programs")
+      ->required()
+      ->type_name("PROGRAM.nc ...");
+  check->add_option("--machine", options.machine, "Machine file whose travel and limits count")
+      ->type_name("FILE.toml")
+      ->capture_default_str();
+  check->add_option("--set", options.settings, "Change a setting of the machine file (repeatable)")
+      ->type_name("SECTION.KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  check
+      ->add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min,
+                   "Feedrate in place of the program's F words")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("F");
+  check->add_flag("--quiet", options.quiet, "Print errors only");
+
+  CLI::App* render =
+      app.add_subcommand("render", "Plots and video again, from the trace in a folder");
+  render->add_option("directory", options.out, "Folder of an earlier run")
+      ->required()
+      ->type_name("DIR");
+  render->add_option("--machine", options.machine, "Machine file whose model the video shows")
+      ->type_name("FILE.toml")
+      ->capture_default_str();
+  render->add_flag("--no-plots", options.no_plots, "Write no figures");
+  render->add_flag("--quiet", options.quiet, "Print errors only");
+  add_video_options(*render, options);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  watch_signals();
+  if (run->parsed()) {
+    return report(run_command(options, stop_requested));
+  }
+  if (plan->parsed()) {
+    return report(plan_command(options, stop_requested));
+  }
+  if (check->parsed()) {
+    return report(check_command(options));
+  }
+  return report(render_command(options));
+} catch (const std::exception& error) {
+  fmt::print(stderr, "twin: {}\n", error.what());
+  return 1;
+}

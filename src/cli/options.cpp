@@ -1,0 +1,73 @@
+#include "cli/options.hpp"
+
+#include "config/find_file.hpp"
+#include "core/units.hpp"
+
+namespace twin::cli {
+
+void add_planning_options(CLI::App& command, Options& options) {
+  command
+      .add_option("program", options.programs,
+                  "NC program: a file, or the name of one in nc_programs")
+      ->required()
+      ->expected(1)
+      ->type_name("PROGRAM.nc");
+  command
+      .add_option("--machine", options.machine, "Machine file: a file, or the name of one in mjcf")
+      ->type_name("FILE.toml")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--set", options.settings,
+          "Change a setting of the machine file, as in --set limits.jerk=20000 (repeatable)")
+      ->type_name("SECTION.KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  command
+      .add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min,
+                  "Feedrate in place of the program's F words")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("F");
+  command
+      .add_option("--interpolator", options.interpolator,
+                  "nurbs: runs of short blocks become curves; linear: the blocks as they are")
+      ->check(CLI::IsMember({"nurbs", "linear"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+void add_result_options(CLI::App& command, Options& options) {
+  command.add_option("--out", options.out, "Folder of the results [renders/PROGRAM]")
+      ->type_name("DIR");
+  command.add_flag("--no-plots", options.no_plots, "Write no figures");
+  command.add_flag("--quiet", options.quiet, "Print errors only");
+}
+
+void add_video_options(CLI::App& command, Options& options) {
+  command.add_flag("--video", options.video, "Render video.mp4, as long as the machining");
+  command.add_option("--camera", options.camera, "Camera of the video")
+      ->check(CLI::IsMember({"iso", "top"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+Expected<config::MachineFile> read_machine(const Options& options) {
+  auto file = config::find_machine(options.machine);
+  if (!file) {
+    return tl::unexpected(file.error());
+  }
+  return config::read_machine_file(*file, options.settings);
+}
+
+std::optional<double> feedrate_of(const Options& options) {
+  if (!options.feedrate_mm_per_min) {
+    return std::nullopt;
+  }
+  return units::mm_per_s_from_mm_per_min(*options.feedrate_mm_per_min);
+}
+
+std::filesystem::path result_folder(const Options& options, const std::filesystem::path& program) {
+  return options.out.empty() ? std::filesystem::path("renders") / program.stem() : options.out;
+}
+
+}  // namespace twin::cli

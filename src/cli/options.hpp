@@ -1,0 +1,46 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/machine_file.hpp"
+#include "core/error.hpp"
+
+namespace twin::cli {
+
+/// Options that the subcommands share; each takes those that mean something to it.
+struct Options {
+  std::vector<std::string> programs;      ///< as given: paths, or names in nc_programs
+  std::string machine = "xy_table.toml";  ///< path, or name in mjcf
+  std::string hal = "mujoco";
+  std::string interpolator = "nurbs";
+  std::optional<double> feedrate_mm_per_min;
+  std::vector<std::string> settings;  ///< section.key=value
+  std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
+  std::string camera = "iso";
+  bool video = false;
+  bool no_plots = false;
+  bool realtime = false;
+  bool quiet = false;
+};
+
+/// Options that say what is planned: program, machine file, settings, feedrate, interpolator.
+void add_planning_options(CLI::App& command, Options& options);
+/// Options that say where results go and which.
+void add_result_options(CLI::App& command, Options& options);
+/// --video and --camera.
+void add_video_options(CLI::App& command, Options& options);
+
+/// The machine file with the settings of the command line.
+Expected<config::MachineFile> read_machine(const Options& options);
+
+/// Programmed feedrate of --feedrate-mm-per-min, in base units [mm/s].
+std::optional<double> feedrate_of(const Options& options);
+
+/// Folder of the results of a program.
+std::filesystem::path result_folder(const Options& options, const std::filesystem::path& program);
+
+}  // namespace twin::cli

@@ -1,0 +1,38 @@
+#include "cli/progress.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace twin::cli {
+
+Progress::Progress(std::string what, bool quiet)
+    : what_(std::move(what)), is_shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (is_shown_) {
+    fmt::print(stderr, "\r\033[K");
+    std::fflush(stderr);
+  }
+}
+
+void Progress::show(double share) {
+  if (!is_shown_) {
+    return;
+  }
+  constexpr int kWidth = 30;
+  const double part = std::clamp(share, 0.0, 1.0);
+  const int done = static_cast<int>(part * kWidth);
+  fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %", what_, "", done, "", kWidth - done,
+             part * 100.0);
+  std::fflush(stderr);
+}
+
+std::function<void(double)> Progress::callback() {
+  return [this](double share) { show(share); };
+}
+
+}  // namespace twin::cli

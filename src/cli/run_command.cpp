@@ -1,0 +1,85 @@
+#include <fmt/core.h>
+
+#include "cli/commands.hpp"
+#include "cli/machines.hpp"
+#include "cli/progress.hpp"
+#include "cli/results.hpp"
+#include "config/find_file.hpp"
+#include "metrics/summary.hpp"
+#include "runtime/run.hpp"
+
+namespace twin::cli {
+namespace {
+
+/// run and plan differ in the machine alone: null plans only.
+Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bool has_machine) {
+  auto machine = read_machine(options);
+  if (!machine) {
+    return tl::unexpected(machine.error());
+  }
+  auto program = config::find_program(options.programs.front());
+  if (!program) {
+    return tl::unexpected(program.error());
+  }
+  const auto hal = has_machine ? make_machine(options.hal, *machine) : nullptr;
+  runtime::RunRequest request;
+  request.program = *program;
+  request.machine = *machine;
+  request.hal = hal.get();
+  request.interpolator = options.interpolator;
+  request.feedrate = feedrate_of(options);
+  request.directory = result_folder(options, *program);
+  request.is_wall_clock = options.realtime;
+  request.stop = &stop;
+  Expected<runtime::RunResult> result;
+  {
+    Progress progress(has_machine ? "machining" : "planning", options.quiet);
+    request.progress = progress.callback();
+    result = runtime::run_program(request);
+  }
+  if (!result) {
+    return tl::unexpected(result.error());
+  }
+  if (auto written = write_summary(request.directory, *result); !written) {
+    return written;
+  }
+  if (!options.quiet) {
+    fmt::print("{}", metrics::to_table(result->summary, machine->limits));
+  }
+  if (result->failure) {
+    return tl::unexpected(*result->failure);
+  }
+  remove_stale_results(request.directory);
+  const std::string title = options.feedrate_mm_per_min
+                                ? fmt::format("{}, {:g} mm/min", program->filename().string(),
+                                              *options.feedrate_mm_per_min)
+                                : program->filename().string();
+  if (!options.no_plots) {
+    if (auto drawn = write_plots(request.directory, *program, title, !has_machine, options.quiet);
+        !drawn) {
+      return drawn;
+    }
+  }
+  if (options.video) {
+    if (auto rendered = write_video(request.directory, machine->table.model, title, options);
+        !rendered) {
+      return rendered;
+    }
+  }
+  if (!options.quiet) {
+    fmt::print("results in {}\n", request.directory.string());
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> run_command(const Options& options, const std::atomic<bool>& stop) {
+  return execute(options, stop, true);
+}
+
+Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop) {
+  return execute(options, stop, false);
+}
+
+}  // namespace twin::cli
