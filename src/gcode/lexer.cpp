@@ -18,6 +18,15 @@ bool is_printable(char c) noexcept { return c >= 0x20 && c < 0x7F; }
 bool is_of_expression(char c) noexcept { return c == '#' || c == '[' || c == ']' || c == '='; }
 char upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
+/// The printable characters before the next blank, eight at most.
+std::string_view start_of(std::string_view text) noexcept {
+  std::size_t length = 0;
+  while (length < text.size() && length < 8 && is_printable(text[length]) && text[length] != ' ') {
+    ++length;
+  }
+  return text.substr(0, length);
+}
+
 std::string not_text(char c) {
   return fmt::format("byte 0x{:02X} is not NC text: is this an NC program?",
                      static_cast<unsigned char>(c));
@@ -133,8 +142,8 @@ tl::unexpected<Error> Lexer::no_number(char letter, int column_of_letter) const 
                                          "supported; expected a number",
                                          letter, c));
   }
-  return fail_at(column_of_letter,
-                 fmt::format("{} has no number: expected one, found '{}'", letter, c));
+  return fail_at(column_of_letter, fmt::format("{} has no number: expected one, found '{}'", letter,
+                                               start_of(line_.substr(at_))));
 }
 
 }  // namespace twin::gcode

@@ -7,6 +7,11 @@
 #include "gcode/fault.hpp"
 
 namespace twin::gcode {
+namespace {
+
+constexpr std::int64_t kLargestLine = std::numeric_limits<int>::max();  // an Error can hold
+
+}  // namespace
 
 Expected<Reader> Reader::open(const std::string& path, const ReaderOptions& options) {
   auto source = LineSource::open(path);
@@ -121,8 +126,7 @@ tl::unexpected<Error> Reader::stop_with(Error error) {
     error.file = name_;
   }
   if (error.column > 0) {
-    constexpr std::int64_t kLargest = std::numeric_limits<int>::max();
-    error.line = static_cast<int>(std::min(source_.line(), kLargest));
+    error.line = static_cast<int>(std::min(source_.line(), kLargestLine));
   }
   blocks_.count = next_block_ = 0;
   error_ = error;

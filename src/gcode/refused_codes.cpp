@@ -24,8 +24,8 @@ constexpr std::string_view kZeroOffset = "only G54 is, with offset zero";
 constexpr Refused kRefusedG[] = {
     {5.0, 5.3, "spline", kStraight},
     {6.0, 6.9, "spline", kStraight},
-    {7.0, 7.0, "diameter programming", "expected a programme for a mill"},
-    {8.0, 8.0, "radius programming", "expected a programme for a mill"},
+    {7.0, 7.0, "diameter programming", "expected a program for a mill"},
+    {8.0, 8.0, "radius programming", "expected a program for a mill"},
     {9.0, 9.0, "exact stop of one block", "expected G61"},
     {10.0, 10.9, "setting of offsets", kZeroOffset},
     {12.0, 13.9, "circular pocket or polar interpolation", kWriteOut},

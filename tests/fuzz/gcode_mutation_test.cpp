@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <string_view>
+
+#include "gcode/reader.hpp"
+
+namespace twin::gcode {
+namespace {
+
+using Random = std::mt19937_64;
+
+constexpr std::size_t kMutants = 60000;
+
+constexpr std::string_view kSeeds[] = {
+    "%\n(seed)\nG21 G90 G17\nN10 G00 X1 Y2\nG01 Z-1 F300\nX5.125 Y-3.5\nG02 X10 Y0 I2.5 J1.5\n"
+    "G03 X0 R20\nG02 I5 Z2\nG04 P0.5\nM30\n%\n",
+    "G20 G91 G64 P0.001\r\nG1X.1Y.1F60S1000M3\r\nG61\r\nG18 G2 X1 Z1 R1\r\n/G19 G3 Y1 K1\r\nM0\r\n",
+    "\xEF\xBB\xBFg0 x1;end\rg1 y2 f100 (c)\rg80\rg40 g49 g54 g94\rg1 x3 t1 m6\rm2\r",
+};
+
+constexpr std::string_view kFragments[] = {
+    "G2",  "G3 I1", "R-1", "X",     "1e9", "999999999999", "-",  ".",    "(",    ")",   ";",
+    "%",   "\n%\n", "/",   "\r",    "\n",  "\r\n",         "#1", "[",    "nan",  "inf", "G80",
+    "M30", "G91",   "G20", "G4 P1", "F0",  "I0 J0",        "K3", "G64P", "\xFF", "E",   "G1 F1 X0",
+};
+
+void mutate(std::string& text, Random& random) {
+  const std::size_t at = random() % (text.size() + 1);
+  switch (random() % 6) {
+    case 0:
+      text.insert(at, 1, static_cast<char>(random() % 256));
+      break;
+    case 1:
+      text.erase(at, random() % 8);
+      break;
+    case 2:
+      text.insert(at, kFragments[random() % std::size(kFragments)]);
+      break;
+    case 3:
+      text.insert(at, text.substr(random() % (text.size() + 1), random() % 40));
+      break;
+    case 4:
+      text.insert(at, std::string(random() % 5000, static_cast<char>('0' + random() % 12)));
+      break;
+    default:
+      if (at < text.size()) {
+        text[at] = static_cast<char>(text[at] ^ static_cast<char>(1U << (random() % 8)));
+      }
+  }
+}
+
+bool is_sound(const Block& block) {
+  const ArcGeometry& arc = block.arc;
+  const bool is_arc = block.motion == Motion::kArc;
+  const bool is_feed = is_arc || block.motion == Motion::kLinear;
+  return block.start.allFinite() && block.end.allFinite() && std::isfinite(block.feedrate) &&
+         block.feedrate >= 0.0 && is_feed == (block.feedrate > 0.0) && block.tolerance >= 0.0 &&
+         block.dwell >= 0.0 && block.line > 0 &&
+         (!is_arc || (arc.centre.allFinite() && arc.e1.allFinite() && arc.e2.allFinite() &&
+                      arc.radius > 0.0 && arc.sweep > 0.0 && arc.sweep < 6.2832));
+}
+
+/// Reads a program to its end: blocks are sound and joined, an error has a message and stays.
+///
+/// @param blocks_read  grows by the blocks before the end or the error
+void expect_orderly(const std::string& text, std::size_t& blocks_read) {
+  Reader reader = Reader::from_text(text, "mutant.nc");
+  Vec3 position = Vec3::Zero();
+  std::size_t blocks = 0;
+  auto block = reader.next();
+  for (; block && *block; block = reader.next()) {
+    ASSERT_TRUE(is_sound(**block)) << text;
+    ASSERT_EQ((*block)->start, position) << text;
+    position = (*block)->end;
+    ASSERT_LE(++blocks, 4 * text.size()) << text;
+  }
+  const auto again = reader.next();
+  ASSERT_EQ(block.has_value(), again.has_value()) << text;
+  if (!block) {
+    ASSERT_FALSE(block.error().message.empty()) << text;
+    ASSERT_EQ(to_string(block.error()), to_string(again.error())) << text;
+    ASSERT_TRUE((block.error().line > 0) == (block.error().column > 0)) << text;
+  }
+  ASSERT_LE(reader.bytes_read(), reader.size()) << text;
+  blocks_read += blocks;
+}
+
+TEST(GcodeMutation, NoMutantUpsetsTheReader) {
+  Random random(2009);
+  std::size_t blocks = 0;
+  for (std::size_t i = 0; i < kMutants; ++i) {
+    std::string text(kSeeds[random() % std::size(kSeeds)]);
+    for (std::uint64_t count = 1 + random() % 6; count > 0; --count) {
+      mutate(text, random);
+    }
+    expect_orderly(text, blocks);
+    if (HasFatalFailure()) {
+      return;
+    }
+  }
+  EXPECT_GT(blocks, kMutants) << "most mutants must reach the interpreter";
+}
+
+TEST(GcodeMutation, RandomBytesAreAlwaysRefused) {
+  Random random(2010);
+  for (int i = 0; i < 5000; ++i) {
+    std::string text(1 + random() % 2000, '\0');
+    for (char& c : text) {
+      c = static_cast<char>(random() % 256);
+    }
+    Reader reader = Reader::from_text(text, "junk.nc");
+    ASSERT_FALSE(reader.next().has_value());
+  }
+}
+
+}  // namespace
+}  // namespace twin::gcode

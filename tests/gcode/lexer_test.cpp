@@ -1,0 +1,83 @@
+#include "gcode/lexer.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace twin::gcode {
+namespace {
+
+/// The words of a line as "letter value @column", or the fault as "column: message".
+std::string words_of(std::string_view line) {
+  Lexer lexer(line);
+  Word word;
+  std::string text;
+  while (true) {
+    const auto found = lexer.next(word);
+    if (!found) {
+      return fmt::format("{}: {}", found.error().column, found.error().message);
+    }
+    if (!*found) {
+      return text;
+    }
+    text += fmt::format("{}{}@{} ", word.letter, word.value, word.column);
+  }
+}
+
+TEST(Lexer, WordsWithAndWithoutBlanksInBothCases) {
+  EXPECT_EQ(words_of("G1X1Y-2.5"), "G1@1 X1@3 Y-2.5@5 ");
+  EXPECT_EQ(words_of(" g01\tx 1.0  y +2 "), "G1@2 X1@6 Y2@13 ");
+  EXPECT_EQ(words_of(""), "");
+}
+
+TEST(Lexer, CommentsPassByWhereverAWordMayBegin) {
+  EXPECT_EQ(words_of("(a;b)G0(c)X1;d(e"), "G0@6 X1@11 ");
+  EXPECT_EQ(words_of("(\xC3\xA4 and\ttab)X1"), "X1@13 ");
+}
+
+TEST(Lexer, CommentFaultsPointAtTheComment) {
+  EXPECT_EQ(words_of("X1 (open"), "4: the comment has no end: expected ) on the same line");
+  EXPECT_EQ(words_of("(a(b))"), "3: a comment within a comment: expected ) first");
+  EXPECT_EQ(words_of("X1)"), "3: unexpected ')': expected a letter and a number");
+}
+
+TEST(Lexer, LetterWithoutNumberSaysWhatStandsThere) {
+  EXPECT_EQ(words_of("X"), "1: X has no number: expected one before the end of the line");
+  EXPECT_EQ(words_of("G1 XY2"), "4: X has no number: expected one, found 'Y2'");
+  EXPECT_EQ(words_of("Xnan"), "1: X has no number: expected one, found 'nan'");
+  EXPECT_EQ(words_of("X-inf"), "1: X has no number: expected one, found '-inf'");
+  EXPECT_EQ(words_of("X(one)1"), "1: X has no number: expected one, found '(one)1'");
+}
+
+TEST(Lexer, NumbersHaveNoExponentAndNoEndlessSize) {
+  EXPECT_EQ(words_of("X1e9"),
+            "3: X has a number with an exponent: expected a plain decimal number such as X0.001");
+  EXPECT_EQ(words_of("G1 X" + std::string(400, '9')),
+            "4: the number of X is too large: expected at most 1000000000");
+}
+
+TEST(Lexer, BlanksDoNotSplitNumbers) {
+  EXPECT_EQ(words_of("X1 2"), "4: unexpected '2': expected a letter and a number");
+  EXPECT_EQ(words_of("X- 2"), "1: X has no number: expected one, found '-'");
+}
+
+TEST(Lexer, ExpressionsAreRefusedByName) {
+  EXPECT_EQ(words_of("#1=2"),
+            "1: '#': variables and expressions are not supported; expected a letter and a number");
+  EXPECT_EQ(words_of("X[1+2]"),
+            "2: X followed by '[': variables and expressions are not supported; expected a number");
+}
+
+TEST(Lexer, BytesThatAreNoTextAreGivenByValue) {
+  EXPECT_EQ(words_of(std::string_view("G1\0X", 4)),
+            "3: byte 0x00 is not NC text: is this an NC program?");
+  EXPECT_EQ(words_of("\x7F"
+                     "ELF"),
+            "1: byte 0x7F is not NC text: is this an NC program?");
+  EXPECT_EQ(words_of("X\xFF"), "2: byte 0xFF is not NC text: is this an NC program?");
+  EXPECT_EQ(words_of("(\x01)"), "2: byte 0x01 is not NC text: is this an NC program?");
+}
+
+}  // namespace
+}  // namespace twin::gcode

@@ -1,0 +1,5 @@
+(only words)
+G21 G90
+F100 S1000 M3
+M30
+G1 X1

@@ -1,0 +1,10 @@
+(short blocks, as CAM writes them)
+G21 G90 G17
+G01 F3000
+X0.253 Y0.284
+X0.502 Y0.561
+X0.751 Y0.838
+X0.751 Y0.838
+X1.001 Y1.113
+M30
+X99
