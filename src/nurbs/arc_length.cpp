@@ -50,7 +50,7 @@ bool is_smooth(const Quartic& q, double half) noexcept {
 }
 
 /// Curvature at x = -1, -1/2, 0, 1/2: C' x C'' = (d0 x d1 + 2 x (d0 x d2) + x^2 (d1 x d2)) / h.
-void sample_cubic(const Tangent& c, const Quartic& q, double centre, double half,
+void sample_cubic(const Tangent& c, const Quartic& q, double begin, double half,
                   const std::array<double, 4>& s, std::vector<CurvatureSample>& samples) {
   const Vec3 a = cross(c.d0, c.d1) / half;
   const Vec3 b = cross(c.d0, c.d2) * (2.0 / half);
@@ -60,8 +60,8 @@ void sample_cubic(const Tangent& c, const Quartic& q, double centre, double half
     const double square = value(q, x);
     const double cubed = square * root(square);
     const double product = (a + x * (b + x * d)).norm();
-    samples.push_back(
-        {centre + x * half, s[static_cast<std::size_t>(k)], cubed > 0.0 ? product / cubed : 0.0});
+    samples.push_back({begin + 0.5 * k * half, s[static_cast<std::size_t>(k)],
+                       cubed > 0.0 ? product / cubed : 0.0});
   }
 }
 
@@ -100,7 +100,7 @@ struct ArcLength::Builder {
     }
     const std::array<double, 4> s = append(begin, half, q, speeds);
     if (samples != nullptr) {
-      sample_cubic(tangent, q, begin + half, half, s, *samples);
+      sample_cubic(tangent, q, begin, half, s, *samples);
     }
   }
 

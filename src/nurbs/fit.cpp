@@ -10,13 +10,15 @@ namespace {
 
 constexpr int kDegree = 3;
 
-/// P_1 and P_2 from [WY09, Eq. 28] at the beginning of the domain, where C' = P_0^(1) and C'' =
-/// P_0^(2).
-/// @param knot  u_0..u_5, distances between them alone matter: sign -1 with the knots reversed
-/// serves the other end
+/// P_1 and P_2 from C' = P_0^(1) and C'' = P_0^(2) at the beginning of the domain [WY09, Eqs. 27,
+/// 28]:
+///   C' = 3 (P_1 - P_0) / h1,   C'' = 2 (3 (P_2 - P_1) / h2 - C') / h3,
+/// h1 = u_4 - u_1, h2 = u_5 - u_2, h3 = u_4 - u_2. Counted from the end, with C' reversed, they are
+/// P_{m-1} and P_{m-2}.
+///
+/// @param sign  1 at the beginning, -1 at the end
 void set_clamped_end(const EndCondition& end, double sign, double h1, double h2, double h3,
                      const Vec3& p0, Vec3& p1, Vec3& p2) {
-  // h1 = |u_4 - u_1|, h2 = |u_5 - u_2|, h3 = |u_4 - u_2|
   p1 = p0 + (h1 / kDegree) * sign * end.first;
   p2 = p1 + (h2 / kDegree) * (sign * end.first + (0.5 * h3) * end.second);
 }

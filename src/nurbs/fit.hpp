@@ -28,8 +28,8 @@ struct EndCondition {
 /// parameter, hence with continuous tangent and curvature.
 ///
 ///     conditions   C_0 (C'_0 C''_0)  C_1 ... C_{n-1}  (C''_n C'_n) C_n
-///     known        P_0 (P_1  P_2)                     (P_{m-2} P_{m-1}) P_m     from the ends
-///     alone solved for                     the n-1 between
+///     control      P_0 (P_1  P_2)    ...              (P_{m-2} P_{m-1}) P_m
+///     found        from the end      by Eq. 12        from the end
 ///
 /// At l_i no more than the basis functions of the five neighbouring columns differ from zero, so
 /// the collocation matrix of [WY09, Eq. 12] has five diagonals; it is totally positive
@@ -39,8 +39,8 @@ struct EndCondition {
 /// except where the curve it fills was moved away.
 class Fitter {
  public:
-  /// Fits the curve through `points` (n+1 of them [mm], successive ones distinct); n >= 3, or n >=
-  /// 1 with a clamped end.
+  /// Fits the curve through `points` (n+1 of them [mm], successive ones distinct);
+  /// n >= 3, or n >= 1 with a clamped end.
   ///
   /// @param out  gets the curve; untouched on failure
   /// @returns false when the points are too few, coincide or are not finite
