@@ -15,7 +15,8 @@ struct Motion1 {
 
 /// Distance along a path that starts at rest at t = 0 and blends into constant speed.
 ///
-/// Speed V (6 b^5 - 15 b^4 + 10 b^3) with b = t / ramp up to the ramp's end, V afterwards; acceleration and jerk are continuous.
+/// Speed V (6 b^5 - 15 b^4 + 10 b^3) with b = t / ramp up to the ramp's end, V afterwards;
+/// acceleration and jerk are continuous.
 inline Motion1 smooth_start(double t, double speed, double ramp) {
   if (t <= 0.0) {
     return {};
@@ -25,7 +26,8 @@ inline Motion1 smooth_start(double t, double speed, double ramp) {
   }
   const double b = t / ramp;
   const double b3 = b * b * b;
-  return {speed * ramp * b3 * b * (b * b - 3.0 * b + 2.5), speed * b3 * (6.0 * b * b - 15.0 * b + 10.0),
+  return {speed * ramp * b3 * b * (b * b - 3.0 * b + 2.5),
+          speed * b3 * (6.0 * b * b - 15.0 * b + 10.0),
           speed / ramp * 30.0 * b * b * (b - 1.0) * (b - 1.0)};
 }
 
@@ -36,7 +38,8 @@ struct PlanePoint {
   double acceleration[2] = {0.0, 0.0};
 };
 
-/// Circle through the origin at phase 0, counter-clockwise, centre (-radius, 0). @param s distance along it [mm]
+/// Circle through the origin at phase 0, counter-clockwise, centre (-radius, 0). @param s distance
+/// along it [mm]
 inline PlanePoint on_circle(double radius, const Motion1& s) {
   const double angle = s.value / radius;
   const double c = std::cos(angle);
