@@ -15,6 +15,9 @@ void strip_options(mjModel& model, double step) noexcept {
   model.opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_EQUALITY |
                             mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY | mjDSBL_ACTUATION |
                             mjDSBL_SENSOR | mjDSBL_WARMSTART;
+  if (model.ntendon == 0) {
+    model.opt.disableflags |= mjDSBL_PASSIVE;  // nothing springs but the screws
+  }
   model.opt.enableflags = 0;
 }
 
