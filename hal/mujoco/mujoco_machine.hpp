@@ -12,6 +12,8 @@
 
 namespace twin::hal {
 
+class TablePhysics;
+
 /// The servo XY table as a MuJoCo model, behind the wires of a real one.
 ///
 /// MuJoCo integrates the masses (semi-implicit Euler, no contacts, no constraints); converter,
@@ -48,20 +50,18 @@ class MujocoMachine final : public Machine {
 
  private:
   enum class Fault { kNone, kNotConfigured, kNotActive, kNotANumber, kUnstable, kMujoco };
-  struct Physics;  // model, state and joints: MuJoCo stays out of this header
 
   Status stop_with(Fault fault) noexcept;
   bool advance() noexcept;
-  void apply_forces() noexcept;
+  void step();
   void fill(Inputs& inputs) const noexcept;
-  double encoder_position(std::size_t axis) const noexcept;
 
   TableParams params_;
   MachineInfo info_;
   State state_ = State::kUnconfigured;
   Fault fault_ = Fault::kNone;
   std::array<char, 200> fault_text_{};  // MuJoCo's words, kept without allocating
-  std::unique_ptr<Physics> physics_;
+  std::unique_ptr<TablePhysics> physics_;
   std::vector<TableAxis> axes_;
   std::array<double, kServoAxes> origin_{};          // of truth(), set by activate() [mm]
   std::array<double, kServoAxes> external_force_{};  // [N]

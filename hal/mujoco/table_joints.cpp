@@ -43,8 +43,8 @@ Expected<AxisJoints> find_axis(const mjModel& model, const std::string& name) {
   if (model.tendon_num[axis.screw] != 2 || model.wrap_type[first] != mjWRAP_JOINT ||
       model.jnt_dofadr[model.wrap_objid[first]] != axis.slide.dof ||
       model.jnt_dofadr[model.wrap_objid[first + 1]] != axis.motor.dof) {
-    return fail(ErrorCode::kModel, fmt::format("tendon \"{0}_screw\" of the model must be a fixed "
-                                               "one of joint \"{0}\", then \"{0}_motor\"",
+    return fail(ErrorCode::kModel, fmt::format("tendon {0}_screw of the model must be a fixed one "
+                                               "of joint {0}, then of joint {0}_motor",
                                                name));
   }
   return axis;
@@ -81,7 +81,7 @@ Expected<TableJoints> find_table_joints(const mjModel& model) {
   }
   joints.pen = *pen;
   if (model.body_parentid[joints.axis[kX].slide.body] != joints.axis[kY].slide.body) {
-    return fail(ErrorCode::kModel, "the body of joint \"x\" must sit on the body of joint \"y\"");
+    return fail(ErrorCode::kModel, "the body of joint x must sit on the body of joint y");
   }
   return joints;
 }

@@ -12,6 +12,7 @@ constexpr double kMilli = 1e-3;
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kPerMmFromPerUm = 1e3;   // stiffness: N/um in N/mm
 constexpr double kPerMmFromPerM = 1e-3;   // damping: N s/m in N s/mm
+constexpr double kMaxGainPerStep = 1.0;   // K h of the velocity loop; unstable from 2 on
 constexpr double kWholeTolerance = 1e-6;  // how far from whole a count of steps may be
 
 tl::unexpected<Error> out_of_range(const std::string& section, const Setting& setting) {
@@ -31,7 +32,7 @@ Expected<void> check(const std::string& section, const std::vector<Setting>& set
   return {};
 }
 
-Expected<void> check_axis(const std::string& section, AxisParams& axis) {
+Expected<void> check_axis(const std::string& section, AxisParams& axis, double step) {
   if (Expected<void> result = check(section, axis_settings(axis)); !result) {
     return result;
   }
@@ -44,6 +45,13 @@ Expected<void> check_axis(const std::string& section, AxisParams& axis) {
                 fmt::format("{}.encoder_um_per_count and {}.vref_scale_rpm_per_V must not be 0",
                             section, section));
   }
+  const double gain = 2.0 * std::numbers::pi * axis.drive.velocity_gain_Hz * step;
+  if (gain > kMaxGainPerStep) {
+    return fail(
+        ErrorCode::kMachine,
+        fmt::format("{}.velocity_gain_Hz = {:g} needs table.physics_step_ms of at most {:.3g}",
+                    section, axis.drive.velocity_gain_Hz, step / kMilli * kMaxGainPerStep / gain));
+  }
   return {};
 }
 
@@ -51,8 +59,10 @@ Expected<void> check_axis(const std::string& section, AxisParams& axis) {
 
 std::vector<Setting> table_settings(TableParams& params) {
   return {
-      {"physics_step_ms", &params.physics_step, kMilli, 1e-3, 1.0},
-      {"pen_bandwidth_Hz", &params.pen_bandwidth_Hz, 1.0, 1.0, 100.0},
+      {"physics_step_ms", &params.physics_step, kMilli, 1e-3, 1.0,
+       "must divide the interpolation period"},
+      {"pen_bandwidth_Hz", &params.pen_bandwidth_Hz, 1.0, 1.0, 100.0,
+       "bandwidth of the Z slide that follows its set point"},
   };
 }
 
@@ -60,35 +70,55 @@ std::vector<Setting> axis_settings(AxisParams& params) {
   auto& [mass, travel, bits, motor, drive, friction, screw, encoder] = params;
   static_cast<void>(bits);
   return {
-      {"moving_mass_kg", &mass, 1.0, 0.1, 10000.0},
-      {"travel_mm", &travel, 1.0, 1.0, 10000.0},
-      {"rotor_inertia_kg_m2", &motor.rotor_inertia, 1.0, 1e-9, 1.0},
-      {"torque_constant_N_m_per_A", &motor.torque_constant, 1.0, 1e-3, 100.0},
-      {"peak_torque_N_m", &motor.peak_torque, 1.0, 1e-3, 1000.0},
-      {"current_lag_ms", &motor.current_lag, kMilli, 0.0, 100.0},
-      {"vref_scale_rpm_per_V", &drive.vref_scale_rpm_per_V, 1.0, -10000.0, 10000.0},
-      {"input_lag_ms", &drive.input_lag, kMilli, 0.0, 100.0},
-      {"output_delay_ms", &drive.output_delay, kMilli, 0.0, 100.0},
-      {"velocity_gain_Hz", &drive.velocity_gain_Hz, 1.0, 0.1, 20000.0},
-      {"integral_time_ms", &drive.integral_time, kMilli, 0.01, 1e6},
-      {"vref_offset_mV", &drive.vref_offset, kMilli, -1000.0, 1000.0},
-      {"hum_amplitude_mV", &drive.hum_amplitude, kMilli, 0.0, 1000.0},
-      {"hum_frequency_Hz", &drive.hum_frequency_Hz, 1.0, 0.0, 5000.0},
-      {"hum_phase_deg", &drive.hum_phase, kRadPerDeg, -360.0, 360.0},
-      {"ready_delay_ms", &drive.ready_delay, kMilli, 0.0, 10000.0},
-      {"overload_time_ms", &drive.overload_time, kMilli, 1.0, 1e6},
-      {"coulomb_friction_N", &friction.coulomb, 1.0, 0.0, 10000.0},
-      {"static_friction_ratio", &friction.static_ratio, 1.0, 1.0, 10.0},
-      {"stribeck_velocity_mm_per_s", &friction.stribeck_velocity, 1.0, 1e-3, 1000.0},
-      {"bristle_stiffness_N_per_um", &friction.bristle_stiffness, kPerMmFromPerUm, 1e-4, 1000.0},
-      {"bristle_damping_N_s_per_m", &friction.bristle_damping, kPerMmFromPerM, 0.0, 1e5},
-      {"viscous_friction_N_s_per_m", &friction.viscous, kPerMmFromPerM, 0.0, 1e5},
-      {"bristle_elastic_share", &friction.elastic_share, 1.0, 0.0, 0.99},
-      {"screw_lead_mm", &screw.lead, 1.0, 0.1, 1000.0},
-      {"screw_stiffness_N_per_um", &screw.stiffness, kPerMmFromPerUm, 1e-3, 10000.0},
-      {"screw_damping_N_s_per_m", &screw.damping, kPerMmFromPerM, 0.0, 1e6},
-      {"encoder_um_per_count", &encoder.mm_per_count, kMilli, -10000.0, 10000.0},
-      {"encoder_phase_counts", &encoder.phase, 1.0, 0.0, 1.0},
+      {"moving_mass_kg", &mass, 1.0, 0.1, 10000.0, "everything the axis moves, without the rotor"},
+      {"travel_mm", &travel, 1.0, 1.0, 10000.0, "limit switches at minus and plus this"},
+      {"rotor_inertia_kg_m2", &motor.rotor_inertia, 1.0, 1e-9, 1.0, "rotor inertia of the motor"},
+      {"torque_constant_N_m_per_A", &motor.torque_constant, 1.0, 1e-3, 100.0, "torque per ampere"},
+      {"peak_torque_N_m", &motor.peak_torque, 1.0, 1e-3, 1000.0, "torque limit either way"},
+      {"current_lag_ms", &motor.current_lag, kMilli, 0.0, 100.0,
+       "time constant of the current loop"},
+      {"vref_scale_rpm_per_V", &drive.vref_scale_rpm_per_V, 1.0, -10000.0, 10000.0,
+       "motor speed per volt of V-REF; negative turns the axis round"},
+      {"input_lag_ms", &drive.input_lag, kMilli, 0.0, 100.0,
+       "time constant of the V-REF input filter"},
+      {"output_delay_ms", &drive.output_delay, kMilli, 0.0, 100.0,
+       "from write to the drive seeing the voltage"},
+      {"velocity_gain_Hz", &drive.velocity_gain_Hz, 1.0, 0.1, 20000.0,
+       "velocity loop gain, referred to the total inertia"},
+      {"integral_time_ms", &drive.integral_time, kMilli, 0.01, 1e6,
+       "integral time of the velocity loop"},
+      {"vref_offset_mV", &drive.vref_offset, kMilli, -1000.0, 1000.0,
+       "constant disturbance of V-REF"},
+      {"hum_amplitude_mV", &drive.hum_amplitude, kMilli, 0.0, 1000.0,
+       "peak of the mains hum on V-REF"},
+      {"hum_frequency_Hz", &drive.hum_frequency_Hz, 1.0, 0.0, 5000.0, "frequency of the hum"},
+      {"hum_phase_deg", &drive.hum_phase, kRadPerDeg, -360.0, 360.0,
+       "phase of the hum at the first physics step"},
+      {"ready_delay_ms", &drive.ready_delay, kMilli, 0.0, 10000.0,
+       "from /S-ON to /S-RDY and torque"},
+      {"overload_time_ms", &drive.overload_time, kMilli, 1.0, 1e6,
+       "alarm after so long at the torque limit"},
+      {"coulomb_friction_N", &friction.coulomb, 1.0, 0.0, 10000.0, "Coulomb friction Fc"},
+      {"static_friction_ratio", &friction.static_ratio, 1.0, 1.0, 10.0,
+       "breakaway over Coulomb friction, Fs / Fc"},
+      {"stribeck_velocity_mm_per_s", &friction.stribeck_velocity, 1.0, 1e-3, 1000.0,
+       "Stribeck velocity vs"},
+      {"bristle_stiffness_N_per_um", &friction.bristle_stiffness, kPerMmFromPerUm, 1e-4, 1000.0,
+       "bristle stiffness s0"},
+      {"bristle_damping_N_s_per_m", &friction.bristle_damping, kPerMmFromPerM, 0.0, 1e5,
+       "bristle damping s1"},
+      {"viscous_friction_N_s_per_m", &friction.viscous, kPerMmFromPerM, 0.0, 1e5,
+       "viscous friction s2"},
+      {"bristle_elastic_share", &friction.elastic_share, 1.0, 0.0, 0.99,
+       "elastic part of the Coulomb deflection; 0 is plain LuGre"},
+      {"screw_lead_mm", &screw.lead, 1.0, 0.1, 1000.0, "travel per revolution"},
+      {"screw_stiffness_N_per_um", &screw.stiffness, kPerMmFromPerUm, 1e-3, 10000.0,
+       "of the screw; used by xy_table_compliant.xml only"},
+      {"screw_damping_N_s_per_m", &screw.damping, kPerMmFromPerM, 0.0, 1e6,
+       "of the screw; used by xy_table_compliant.xml only"},
+      {"encoder_um_per_count", &encoder.mm_per_count, kMilli, -10000.0, 10000.0,
+       "encoder scale after fourfold evaluation; negative turns it round"},
+      {"encoder_phase_counts", &encoder.phase, 1.0, 0.0, 1.0, "where in a count the zero lies"},
   };
 }
 
@@ -106,10 +136,10 @@ Expected<void> validate(const TableParams& params, double period) {
   if (Expected<void> result = check("table", table_settings(copy)); !result) {
     return result;
   }
-  if (Expected<void> result = check_axis("table.x", copy.axis[kX]); !result) {
+  if (Expected<void> result = check_axis("table.x", copy.axis[kX], copy.physics_step); !result) {
     return result;
   }
-  if (Expected<void> result = check_axis("table.y", copy.axis[kY]); !result) {
+  if (Expected<void> result = check_axis("table.y", copy.axis[kY], copy.physics_step); !result) {
     return result;
   }
   if (steps_per_period(period, params.physics_step) == 0) {

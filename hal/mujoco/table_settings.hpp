@@ -11,11 +11,12 @@ namespace twin::hal {
 
 /// One number of the machine file: its key, where it goes, and what it may be.
 struct Setting {
-  std::string_view key;     ///< in the file, with its unit
-  double* value = nullptr;  ///< in base units
-  double to_base = 1.0;     ///< base value = file value x to_base
-  double min = 0.0;         ///< in the file's unit
-  double max = 0.0;         ///< in the file's unit
+  std::string_view key;       ///< in the file, with its unit
+  double* value = nullptr;    ///< in base units
+  double to_base = 1.0;       ///< base value = file value x to_base
+  double min = 0.0;           ///< in the file's unit
+  double max = 0.0;           ///< in the file's unit
+  std::string_view doc = {};  ///< what it means, in a few words
 };
 
 /// Numbers of [table], except `model`, which is text.

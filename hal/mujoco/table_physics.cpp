@@ -1,0 +1,106 @@
+#include "hal/mujoco/table_physics.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include "core/units.hpp"
+
+namespace twin::hal {
+namespace {
+
+/// Switches off what no model of the table needs, whatever its file says.
+void strip_options(mjModel& model, double step) noexcept {
+  model.opt.timestep = step;
+  model.opt.integrator = mjINT_EULER;
+  model.opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_EQUALITY |
+                            mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY | mjDSBL_ACTUATION |
+                            mjDSBL_SENSOR | mjDSBL_WARMSTART;
+  if (model.ntendon == 0) {
+    model.opt.disableflags |= mjDSBL_PASSIVE;  // nothing springs but the screws
+  }
+  model.opt.enableflags = 0;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<TablePhysics>> TablePhysics::open(const TableParams& params, double step) {
+  auto in_file = [&params](Error error) {
+    error.file = params.model;
+    return tl::unexpected<Error>(std::move(error));
+  };
+  Expected<ModelPtr> model = load_model(params.model);
+  if (!model) {
+    return tl::unexpected<Error>(model.error());
+  }
+  const Expected<TableJoints> joints = find_table_joints(**model);
+  if (!joints) {
+    return in_file(joints.error());
+  }
+  Expected<DataPtr> data = make_data(**model);
+  if (!data) {
+    return in_file(data.error());
+  }
+  strip_options(**model, step);
+  if (Expected<void> applied = apply_params(**model, **data, *joints, params); !applied) {
+    return tl::unexpected<Error>(applied.error());
+  }
+  mj_resetData(model->get(), data->get());
+  return std::unique_ptr<TablePhysics>(
+      new TablePhysics(std::move(*model), std::move(*data), *joints, params));
+}
+
+TablePhysics::TablePhysics(ModelPtr model, DataPtr data, const TableJoints& joints,
+                           const TableParams& params)
+    : model_(std::move(model)),
+      data_(std::move(data)),
+      joints_(joints),
+      mm_per_rad_{params.axis[kX].mm_per_rad(), params.axis[kY].mm_per_rad()},
+      pen_omega_(2.0 * std::numbers::pi * params.pen_bandwidth_Hz) {}
+
+AxisMotion TablePhysics::motion(std::size_t axis) const noexcept {
+  const AxisJoints& joints = joints_.axis[axis];
+  AxisMotion motion;
+  motion.position = units::mm_from_m(data_->qpos[joints.slide.qpos]);
+  motion.velocity = units::mm_from_m(data_->qvel[joints.slide.dof]);
+  motion.motor_speed =
+      joints.is_compliant() ? data_->qvel[joints.motor.dof] : motion.velocity / mm_per_rad_[axis];
+  return motion;
+}
+
+double TablePhysics::encoder_position(std::size_t axis) const noexcept {
+  const AxisJoints& joints = joints_.axis[axis];
+  return joints.is_compliant() ? data_->qpos[joints.motor.qpos] * mm_per_rad_[axis]
+                               : units::mm_from_m(data_->qpos[joints.slide.qpos]);
+}
+
+double TablePhysics::pen_position() const noexcept {
+  return units::mm_from_m(data_->qpos[joints_.pen.qpos]);
+}
+
+void TablePhysics::apply(std::size_t axis, const AxisForces& forces) noexcept {
+  const AxisJoints& joints = joints_.axis[axis];
+  if (joints.is_compliant()) {
+    data_->qfrc_applied[joints.motor.dof] = forces.torque;
+    data_->qfrc_applied[joints.slide.dof] = forces.slide;
+  } else {
+    data_->qfrc_applied[joints.slide.dof] =
+        forces.slide + forces.torque / units::m_from_mm(mm_per_rad_[axis]);
+  }
+}
+
+void TablePhysics::pull_pen(double reference) noexcept {
+  const double error = units::m_from_mm(reference) - data_->qpos[joints_.pen.qpos];
+  const double velocity = data_->qvel[joints_.pen.dof];
+  data_->qfrc_applied[joints_.pen.dof] =
+      model_->body_mass[joints_.pen.body] * pen_omega_ * (pen_omega_ * error - 2.0 * velocity);
+}
+
+void TablePhysics::step() { mj_step(model_.get(), data_.get()); }
+
+bool TablePhysics::is_unstable() const noexcept {
+  const mjWarningStat* warning = data_->warning;
+  return warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 ||
+         warning[mjWARN_BADQACC].number > 0 || warning[mjWARN_INERTIA].number > 0;
+}
+
+}  // namespace twin::hal

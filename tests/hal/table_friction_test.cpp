@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hal/mujoco/mujoco_machine.hpp"
+#include "tests/hal/table_files.hpp"
+
+// Friction of the whole table, servo off: MuJoCo's slide and the bristle together.
+namespace twin::hal {
+namespace {
+
+constexpr double kPeriod = 1e-3;  // [s]
+
+double breakaway(const AxisParams& axis) {
+  return axis.friction.coulomb * axis.friction.static_ratio;
+}
+
+class PushedTable : public ::testing::TestWithParam<Axis> {
+ protected:
+  TableParams params = testing::default_table();
+  MujocoMachine machine{params};
+  Axis axis = GetParam();
+  double held = breakaway(params.axis[GetParam()]);  // breakaway force [N]
+
+  void SetUp() override { ASSERT_TRUE(machine.configure(kPeriod)); }
+
+  void pass(double seconds, double force) {
+    Inputs inputs;
+    machine.set_external_force(axis, force);
+    for (int k = 0; k < std::lround(seconds / kPeriod); ++k) {
+      ASSERT_EQ(machine.read(inputs), Status::kOk);
+    }
+  }
+  double position() const { return machine.truth().table_position[axis]; }
+};
+
+TEST_P(PushedTable, DoesNotCreepAtHalfTheBreakawayForce) {
+  pass(1.0, 0.5 * held);
+  const double before = position();
+  pass(10.0, 0.5 * held);
+  EXPECT_LT(std::abs(position() - before), 0.1e-3);
+}
+
+TEST_P(PushedTable, DoesNotCreepUnderAVibratingLoad) {
+  // 50 Hz in whole periods of 20 ms, always back at the mean load when the position is compared.
+  const auto vibrate = [this](double seconds) {
+    for (int k = 0; k < std::lround(seconds / kPeriod); ++k) {
+      pass(kPeriod, held * (0.4 + 0.15 * std::sin(2.0 * std::numbers::pi * k / 20.0)));
+    }
+  };
+  vibrate(2.0);
+  const double before = position();
+  vibrate(10.0);
+  EXPECT_LT(std::abs(position() - before), 0.1e-3);
+}
+
+TEST_P(PushedTable, HoldsBelowTheBreakawayForceAndSlidesAboveIt) {
+  for (int k = 0; k < 2000; ++k) {  // slowly, so that inertia adds nothing
+    pass(kPeriod, 0.95 * held * k / 2000.0);
+  }
+  pass(1.0, 0.95 * held);
+  EXPECT_LT(std::abs(machine.velocity(axis)), 0.01);
+  pass(1.0, 1.05 * held);
+  EXPECT_GT(machine.velocity(axis), 1.0);
+}
+
+TEST_P(PushedTable, DeflectsElasticallyByForceOverBristleStiffness) {
+  const LugreParams& friction = params.axis[axis].friction;
+  const double force = 0.5 * friction.coulomb;
+  pass(3.0, force);
+  EXPECT_NEAR(position(), force / friction.bristle_stiffness,
+              0.01 * force / friction.bristle_stiffness);
+  pass(3.0, 0.0);
+  EXPECT_NEAR(position(), 0.0, 0.01 * force / friction.bristle_stiffness);
+}
+
+TEST_P(PushedTable, TerminalSpeedIsWhereFrictionBalancesThePush) {
+  // At 50 mm/s the Stribeck part has died out: force = Fc + s2 v.
+  const LugreParams& friction = params.axis[axis].friction;
+  TableParams slippery = params;
+  slippery.axis[axis].friction.viscous = 1.0;  // N s/mm, so that it settles soon
+  MujocoMachine sliding(slippery);
+  ASSERT_TRUE(sliding.configure(kPeriod));
+  sliding.set_external_force(axis, friction.coulomb + 50.0);
+  Inputs inputs;
+  for (int k = 0; k < 1000; ++k) {
+    ASSERT_EQ(sliding.read(inputs), Status::kOk);
+  }
+  EXPECT_NEAR(sliding.velocity(axis), 50.0, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Axes, PushedTable, ::testing::Values(kX, kY),
+                         [](const ::testing::TestParamInfo<Axis>& tested) {
+                           return tested.param == kX ? "X" : "Y";
+                         });
+
+}  // namespace
+}  // namespace twin::hal
