@@ -18,7 +18,8 @@ class Table {
   }
   void columns(std::string_view name, std::string_view first, std::string_view second,
                std::string_view unit) {
-    text_ += fmt::format("  {:<{}}{:>12}{:>12}  {}\n", name, kNameWidth, first, second, unit);
+    text_ += fmt::format("  {:<{}}{:>12}{:>12}{}{}\n", name, kNameWidth, first, second,
+                         unit.empty() ? "" : "  ", unit);
   }
   void error_um(std::string_view name, const ErrorFigures& error) {
     columns(name, fmt::format("{:.3f}", units::um_from_mm(error.max)),
