@@ -134,6 +134,28 @@ TEST(MachineFile, DefaultsAreWithinTheirRangesAndKeysAreUnique) {
   }
 }
 
+TEST(MachineFile, UnitsAreWrittenAsEngineersDo) {
+  EXPECT_EQ(pretty_unit("mm_per_s2"), "mm/s^2");
+  EXPECT_EQ(pretty_unit("mm_per_min"), "mm/min");
+  EXPECT_EQ(pretty_unit("per_s"), "1/s");
+  EXPECT_EQ(pretty_unit("kg_m2"), "kg m^2");
+  EXPECT_EQ(pretty_unit("N_s_per_m"), "N s/m");
+  EXPECT_EQ(pretty_unit(""), "");
+}
+
+TEST(MachineFile, ShippedMachineFilesAreValidAndNameTheirModel) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TWIN_SOURCE_DIR "/mjcf")) {
+    if (entry.path().extension() == ".toml") {
+      const auto machine = read_machine_file(entry.path());
+      ASSERT_TRUE(machine) << to_string(machine.error());
+      EXPECT_TRUE(std::filesystem::exists(machine->table.model)) << machine->table.model;
+      ++count;
+    }
+  }
+  EXPECT_GE(count, 1);
+}
+
 TEST(MachineFile, FilesThatCannotBeReadAreRefused) {
   const auto message = [](const std::filesystem::path& file) {
     const auto machine = read_machine_file(file);
