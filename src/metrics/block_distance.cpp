@@ -14,6 +14,7 @@ using gcode::Block;
 using gcode::Motion;
 
 constexpr double kStep = 0.26;       // sampling of an arc: just under 15 deg [rad]
+constexpr int kZoom = 16;            // samples per round where Newton's method does not serve
 constexpr int kMostIterations = 60;  // Newton needs 4; bisection alone 50
 
 Vec3 seen(const Vec3& v, View view) noexcept {
@@ -74,13 +75,12 @@ double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double 
 /// The same by ever finer sampling, for an arc seen edge-on: its twin minima may be as close as
 /// they like.
 double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
-  constexpr int kPieces = 16;
   double best = lo;
   while (hi - lo > 1e-10) {
     const double from = lo;
-    const double step = (hi - lo) / kPieces;
+    const double step = (hi - lo) / kZoom;
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= kPieces; ++i) {
+    for (int i = 0; i <= kZoom; ++i) {
       const double f = from + step * i;
       const double d2 = seen(evaluate(g, f).position - p, view).squaredNorm();
       if (d2 < least) {
@@ -89,7 +89,7 @@ double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double
       }
     }
     lo = std::max(best - step, from);
-    hi = std::min(best + step, from + step * kPieces);
+    hi = std::min(best + step, from + step * kZoom);
   }
   return best;
 }

@@ -102,7 +102,7 @@ TEST(LimitAudit, TrajectoryThatStartsAtSpeedShows) {
   }
   EXPECT_NEAR(audit.peaks().tangential_acceleration, 50.0 / kPeriod, 1e-3);
   audit.finish();
-  EXPECT_NEAR(audit.peaks().axis[0].jerk, 100.0 / kPeriod / kPeriod / 2.0 * 1.0, 1.0);
+  EXPECT_NEAR(audit.peaks().axis[0].jerk, 50.0 / (kPeriod * kPeriod), 1.0);
 }
 
 TEST(LimitAudit, JumpOfTwoMicrometresIsFound) {
