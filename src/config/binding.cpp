@@ -118,6 +118,9 @@ std::string value_text(const Binding& binding) {
 }
 
 std::string pretty_unit(std::string_view unit) {
+  if (unit.starts_with("per_")) {
+    return fmt::format("1/{}", unit.substr(4));
+  }
   const auto per = unit.find("_per_");
   std::string text(unit.substr(0, per));
   if (per != std::string_view::npos) {

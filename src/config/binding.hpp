@@ -52,7 +52,7 @@ Expected<void> assign(const Binding& binding, const Value& value);
 /// The field's value, in the key's unit, as TOML writes it.
 std::string value_text(const Binding& binding);
 
-/// "mm/s^2" from "mm_per_s2"; empty stays empty.
+/// "mm/s^2" from "mm_per_s2", "1/s" from "per_s"; empty stays empty.
 std::string pretty_unit(std::string_view unit);
 
 /// "0.125 to 4 ms"

@@ -66,8 +66,7 @@ Expected<fs::path> find_file(std::string_view kind, const std::string& name,
     }
   }
   if (is_folder(name)) {
-    return tl::unexpected<Error>(
-        Error{ErrorCode::kFile, "is a directory, not a " + std::string(kind), name, 0, 0});
+    return tl::unexpected<Error>(Error{ErrorCode::kFile, "is a directory, not a file", name, 0, 0});
   }
   std::string message = "no such " + std::string(kind);
   if (is_plain) {

@@ -16,6 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string joined(const std::string& section, const std::string& name) {
+  return section.empty() ? name : fmt::format("{}.{}", section, name);
+}
+
 /// Takes the keys of a parsed file one by one.
 class Reader {
  public:
@@ -26,10 +30,9 @@ class Reader {
   Expected<void> read(const toml::table& table, const std::string& section) {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
-      const std::string path = section.empty() ? name : section + "." + name;
-      const auto done = node.is_table() && is_section(path)
-                            ? read(*node.as_table(), path)
-                            : read_key(section, name, node, key.source());
+      const std::string path = joined(section, name);
+      auto done = node.is_table() && is_section(path) ? read(*node.as_table(), path)
+                                                      : read_key(section, name, node, key.source());
       if (!done) {
         return done;
       }
@@ -73,7 +76,7 @@ class Reader {
       }
     }
     if (is_table) {
-      const std::string path = section.empty() ? name : section + "." + name;
+      const std::string path = joined(section, name);
       return "unknown section [" + path + "]" + did_you_mean(path, names);
     }
     return section.empty()

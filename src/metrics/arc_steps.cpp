@@ -43,9 +43,10 @@ Step ArcSteps::push(const Vec3& point) noexcept {
       (71.0 * (n1.curvature + n2.curvature) - 11.0 * (n0.curvature + n3.curvature)) / 120.0;
   Step step;
   step.chord = c;
-  step.bend = std::min(mean.norm() * c, 2.0);
-  const double half = step.bend / 2.0;
-  step.arc = half > 5e-10 ? c * half / std::sin(half) : c;
+  const double sine = std::min(0.5 * mean.norm() * c, 1.0);
+  const double half = std::asin(sine);
+  step.bend = 2.0 * half;
+  step.arc = sine > 5e-10 ? c * half / sine : c;
 
   const double dx = c * std::max((n2.curvature - 2.0 * n1.curvature + n0.curvature).norm(),
                                  (n3.curvature - 2.0 * n2.curvature + n1.curvature).norm());

@@ -17,11 +17,11 @@ struct Step {
 /// Turns set points into arc lengths per period.
 ///
 /// Set points are joined by chords c, but the machine moves along the arc. On a path of curvature
-/// kappa that turns by x = kappa c within the period the arc is
-///   a = c (x / 2) / sin(x / 2),                                                      (1)
-/// longer by c x^2 / 24. That looks small, yet the second difference of chords misses T / 24
-/// d/dt(a_n^2 / v) of the tangential acceleration, a tenth of it at a normal acceleration of 2450
-/// mm/s^2, and the third difference more.
+/// kappa it turns by x in the period, and the arc is
+///   sin(x / 2) = kappa c / 2,   a = c (x / 2) / sin(x / 2),                          (1)
+/// longer by c x^2 / 24 and exact on a circle. That looks small, yet the second difference of
+/// chords misses T / 24 d/dt(a_n^2 / v) of the tangential acceleration, a tenth of it at a normal
+/// acceleration of 2450 mm/s^2, and the third difference more.
 ///
 /// The curvature vector at set point i is that of the circle through i - 1, i, i + 1,
 ///   kappa_i = 2 (e_(i-1) x e_i) / |p_(i+1) - p_(i-1)|,   e_i = unit (p_(i+1) - p_i), (2)

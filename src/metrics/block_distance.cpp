@@ -14,6 +14,7 @@ using gcode::Block;
 using gcode::Motion;
 
 constexpr double kStep = 0.26;       // sampling of an arc: just under 15 deg [rad]
+constexpr int kZoom = 16;            // samples per round where Newton's method does not serve
 constexpr int kMostIterations = 60;  // Newton needs 4; bisection alone 50
 
 Vec3 seen(const Vec3& v, View view) noexcept {
@@ -58,7 +59,8 @@ double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double 
     const auto [first, second] = slope(g, p, view, f);
     (first > 0.0 ? hi : lo) = f;
     double next = f - first / second;
-    if (!(next > lo && next < hi)) {
+    if (!(second > 0.0 && next > lo &&
+          next < hi)) {  // not towards a maximum, not out of the bracket
       next = 0.5 * (lo + hi);
     }
     const bool is_done = std::abs(next - f) < 1e-13;
@@ -68,6 +70,32 @@ double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double 
     }
   }
   return f;
+}
+
+/// The same by ever finer sampling, for an arc seen edge-on: its twin minima may be as close as
+/// they like.
+double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
+  double best = lo;
+  while (hi - lo > 1e-10) {
+    const double from = lo;
+    const double step = (hi - lo) / kZoom;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kZoom; ++i) {
+      const double f = from + step * i;
+      const double d2 = seen(evaluate(g, f).position - p, view).squaredNorm();
+      if (d2 < least) {
+        least = d2;
+        best = f;
+      }
+    }
+    lo = std::max(best - step, from);
+    hi = std::min(best + step, from + step * kZoom);
+  }
+  return best;
+}
+
+bool is_ellipse(const ArcGeometry& g, View view) noexcept {
+  return view == View::kAlongZ && std::hypot(g.e1.z(), g.e2.z()) > 1e-9;
 }
 
 Place place_at(const Block& block, const Vec3& point, View view, double f) noexcept {
@@ -92,7 +120,8 @@ Place nearest_of_arc(const Block& block, const Vec3& p, View view, double from,
   for (int i = 0; i <= pieces; ++i) {
     const double after = i < pieces ? squared(i + 1) : std::numeric_limits<double>::infinity();
     if (here <= before && here <= after) {
-      const double f = refine(block.arc, p, view, fraction(i - 1), fraction(i + 1));
+      const auto search = is_ellipse(block.arc, view) ? zoom_in : refine;
+      const double f = search(block.arc, p, view, fraction(i - 1), fraction(i + 1));
       const Place candidate = place_at(block, p, view, f);
       place = candidate.distance < place.distance ? candidate : place;
     }
@@ -124,8 +153,7 @@ double block_length(const Block& block, View view) noexcept {
   }
   const ArcGeometry& g = block.arc;
   const double around = (g.radius + 0.5 * g.radius_change) * g.sweep;
-  const bool is_flat = std::hypot(g.e1.z(), g.e2.z()) < 1e-9;
-  return view == View::kAlongZ && is_flat ? around : std::hypot(around, g.rise);
+  return view == View::kAlongZ && !is_ellipse(g, view) ? around : std::hypot(around, g.rise);
 }
 
 Place nearest(const Block& block, const Vec3& point, View view, double from, double to) noexcept {

@@ -36,7 +36,7 @@ double block_length(const gcode::Block& block, View view) noexcept;
 ///   D(f) = |C(f) - p|^2,  C(f) of gcode::ArcGeometry,
 /// is sampled every 15 deg, and beside each sample that is lower than its neighbours the root of
 /// D'(f) is found by Newton's method inside a bracket, to 1e-13 of the way. (A helix has a minimum
-/// on each turn, an ellipse up to two.)
+/// on each turn.) A tilted arc seen along Z, an ellipse, is sampled finer and finer instead.
 ///
 /// @param point  [mm]
 /// @param from, to  fractions, 0 <= from <= to <= 1

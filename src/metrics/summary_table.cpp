@@ -18,7 +18,8 @@ class Table {
   }
   void columns(std::string_view name, std::string_view first, std::string_view second,
                std::string_view unit) {
-    text_ += fmt::format("  {:<{}}{:>12}{:>12}  {}\n", name, kNameWidth, first, second, unit);
+    text_ += fmt::format("  {:<{}}{:>12}{:>12}{}{}\n", name, kNameWidth, first, second,
+                         unit.empty() ? "" : "  ", unit);
   }
   void error_um(std::string_view name, const ErrorFigures& error) {
     columns(name, fmt::format("{:.3f}", units::um_from_mm(error.max)),
@@ -58,8 +59,8 @@ void add_path(Table& table, const Summary& s) {
   table.line("path length", fmt::format("{:.3f} mm", s.path_length));
   table.line("planned time", fmt::format("{:.3f} s", s.planned_time));
   if (s.run) {
-    table.line("machining time", fmt::format("{:.3f} s, {:.1f} times faster than real time",
-                                             s.run->machining_time, s.run->real_time_factor));
+    table.line("machining time", fmt::format("{:.3f} s, {:.1f} x real time", s.run->machining_time,
+                                             s.run->real_time_factor));
     table.line("cycle time", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us max",
                                          s.run->cycle_time.p50 * 1e6, s.run->cycle_time.p99 * 1e6,
                                          s.run->cycle_time.max * 1e6));
