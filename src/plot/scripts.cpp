@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/pen.hpp"
+
 namespace twin::plot {
 namespace {
 
@@ -111,8 +113,10 @@ std::string background(const DataSummary& data) {
 }
 
 std::string pen_functions(const DataSummary& data) {
-  return data.has_pen_up ? "up(x) = column('z_cmd_mm') > 0.1 ? x : NaN\n"
-                           "down(x) = column('z_cmd_mm') > 0.1 ? NaN : x\n"
+  return data.has_pen_up ? fmt::format(
+                               "up(x) = column('z_cmd_mm') > {0} ? x : NaN\n"
+                               "down(x) = column('z_cmd_mm') > {0} ? NaN : x\n",
+                               trace::kPenUp)
                          : "down(x) = x\n";
 }
 
