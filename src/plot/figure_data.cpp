@@ -18,12 +18,12 @@
 #include "trace/csv_file.hpp"
 #include "trace/csv_reader.hpp"
 #include "trace/decimator.hpp"
+#include "trace/pen.hpp"
 
 namespace twin::plot {
 namespace {
 
 constexpr std::size_t kMaxRows = 12000;  // of a figure's data
-constexpr double kPenUp = 0.1;           // [mm] above this the pen does not draw
 
 /// Fields of a record: first the columns that are read from the trace, those of a plan in front;
 /// then what is derived.
@@ -187,7 +187,7 @@ class Stream {
     }
     low_ = low_.cwiseMin(here);
     high_ = high_.cwiseMax(here);
-    (record[kZ] > kPenUp ? lifted_ : lowered_) = true;
+    (record[kZ] > trace::kPenUp ? lifted_ : lowered_) = true;
     for (FigureTable& table : tables_) {
       table.push(record);
     }

@@ -13,8 +13,9 @@ namespace twin::plot {
 struct FigureInput {
   std::filesystem::path directory;  ///< holds trace.csv; the figures go to its folder plots
   std::string title;                ///< above every figure, as in "dolphin.nc, 3000 mm/min"
-  std::vector<Vec2> programmed;  ///< programmed path as a polyline, arcs sampled [mm]; may be empty
-  bool plan_only = false;        ///< the trace has no machine in it: command figures alone
+  std::vector<Vec2> programmed =
+      {};                  ///< programmed path as a polyline, arcs sampled [mm]; may be empty
+  bool plan_only = false;  ///< the trace has no machine in it: command figures alone
 };
 
 /// Draws the figures of a run as PNG and SVG, in the manner of Figs. 12 to 19 of the paper.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/pen.hpp"
+
 namespace twin::plot {
 namespace {
 
@@ -43,7 +45,9 @@ Script script(const std::string& name, const std::string& settings, const std::s
       "set style line 3 linecolor rgb '{3}' linewidth 1.5\n"
       "set style line 4 linecolor rgb '{4}' linewidth 4\n"
       "set style line 5 linecolor rgb '{4}' linewidth 1 dashtype 3\n"
-      "set key outside top center horizontal samplen 2\n",
+      "set key at screen 0.5, screen 0.905 center center horizontal Left reverse samplen 2 width "
+      "2\n"
+      "set tmargin at screen 0.865\n",
       name, kBlue, kVermilion, kGreen, kGrey);
   text += settings;
   text += fmt::format(
@@ -64,21 +68,31 @@ Script script(const std::string& name, const std::string& settings, const std::s
 }
 
 std::string set_title(const std::string& title) {
-  return title.empty() ? "" : "set title " + quoted(title) + " noenhanced\n";
+  return title.empty()
+             ? ""
+             : "set label 1 " + quoted(title) + " at screen 0.5, screen 0.96 center noenhanced\n";
 }
 
-/// Two panels under one title, over the same time.
+/// Two panels under one title, over the same time, which is labelled once.
 std::string two_panels(const std::string& title, const std::string& upper,
                        const std::string& lower) {
   return fmt::format(
-      "  set multiplot layout 2,1{}\n"
-      "  {}\n  {}\n"
+      "  set multiplot layout 2,1 margins 0.16, 0.97, 0.13, {} spacing 0, 0.06{}\n"
+      "  set format x ''\n"
+      "  unset xlabel\n"
+      "  {}\n"
+      "  set format x '%h'\n"
+      "  set xlabel 'time [s]'\n"
+      "  {}\n"
       "  unset multiplot\n",
+      title.empty() ? "0.96" : "0.90",
       title.empty() ? "" : " title " + quoted(title) + " noenhanced", upper, lower);
 }
 
 constexpr std::string_view kPathAxes =
     "set size ratio -1\n"
+    "set autoscale fix\n"
+    "set offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n"
     "set xlabel 'x [mm]'\n"
     "set ylabel 'y [mm]'\n";
 
@@ -99,8 +113,10 @@ std::string background(const DataSummary& data) {
 }
 
 std::string pen_functions(const DataSummary& data) {
-  return data.has_pen_up ? "up(x) = column('z_cmd_mm') > 0.1 ? x : NaN\n"
-                           "down(x) = column('z_cmd_mm') > 0.1 ? NaN : x\n"
+  return data.has_pen_up ? fmt::format(
+                               "up(x) = column('z_cmd_mm') > {0} ? x : NaN\n"
+                               "down(x) = column('z_cmd_mm') > {0} ? NaN : x\n",
+                               trace::kPenUp)
                          : "down(x) = x\n";
 }
 
@@ -110,7 +126,7 @@ Script magnified_script(const std::string& title, const DataSummary& data) {
   settings += fmt::format("magnification = {}\n", n);
   settings +=
       "moved(x, error) = x + magnification * error / 1000.0\n"
-      "key = sprintf('measured, error × %g', magnification)\n";
+      "key = sprintf('error × %g', magnification)\n";
   const std::string drawing = fmt::format(
       "  plot {}'contour_magnified.csv' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines "
       "linestyle 1 title 'command', \\\n"
@@ -134,15 +150,12 @@ Script feedrate_script(const std::string& title, const DataSummary& data) {
   }
   drawing +=
       "'feedrate.csv' using 't_s':'feedrate_mm_per_s' with lines linestyle 1 title "
-      "'feedrate of the set points'\n";
+      "'feedrate'\n";
   return script("feedrate", settings, drawing);
 }
 
 Script acceleration_script(const std::string& title) {
-  const std::string settings =
-      "set xlabel 'time [s]'\n"
-      "set lmargin 10\n"
-      "unset key\n";
+  const std::string settings = "unset key\n";
   return script("acceleration_jerk", settings,
                 two_panels(title,
                            "set ylabel \"tangential\\nacceleration [mm/s²]\"\n"
@@ -158,17 +171,15 @@ Script contour_error_script(const std::string& title) {
                                "set xlabel 'time [s]'\n"
                                "set ylabel 'contour error [µm]'\n"
                                "set yrange [0:*]\n"
-                               "unset key\n";
+                               "unset key\n"
+                               "set tmargin at screen 0.91\n";
   return script("contour_error", settings,
                 "  plot 'contour_error.csv' using 't_s':'contour_error_um' with lines linestyle 1 "
                 "linewidth 1\n");
 }
 
 Script tracking_script(const std::string& title) {
-  const std::string settings =
-      "set xlabel 'time [s]'\n"
-      "set lmargin 10\n"
-      "unset key\n";
+  const std::string settings = "unset key\n";
   return script("tracking_errors", settings,
                 two_panels(title,
                            "set ylabel \"tracking error\\nof x [µm]\"\n"

@@ -1,0 +1,59 @@
+#include "render/image.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace twin::render {
+
+Rectangle united(const Rectangle& a, const Rectangle& b) noexcept {
+  if (a.width <= 0 || a.height <= 0) {
+    return b;
+  }
+  const int x = std::min(a.x, b.x);
+  const int y = std::min(a.y, b.y);
+  return {x, y, std::max(a.x + a.width, b.x + b.width) - x,
+          std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+Image::Image(int width, int height, Colour fill)
+    : width_(width),
+      height_(height),
+      pixels_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    pixels_[i] = fill[i % 3];
+  }
+}
+
+Colour Image::at(int x, int y) const noexcept {
+  const std::uint8_t* const pixel = data() + offset(x, y);
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+void Image::mix(int x, int y, Colour colour, double part) noexcept {
+  if (x < 0 || y < 0 || x >= width_ || y >= height_) {
+    return;
+  }
+  std::uint8_t* const pixel = data() + offset(x, y);
+  for (std::size_t i = 0; i < 3; ++i) {
+    pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] + part * (colour[i] - pixel[i])));
+  }
+}
+
+void Image::mix(const Rectangle& area, Colour colour, double part) noexcept {
+  for (int y = std::max(area.y, 0); y < std::min(area.y + area.height, height_); ++y) {
+    for (int x = std::max(area.x, 0); x < std::min(area.x + area.width, width_); ++x) {
+      mix(x, y, colour, part);
+    }
+  }
+}
+
+void Image::paste(const Image& picture, int x, int y) noexcept {
+  const int left = std::max(x, 0);
+  const int right = std::min(x + picture.width(), width_);
+  for (int to = std::max(y, 0); to < std::min(y + picture.height(), height_) && left < right;
+       ++to) {
+    std::copy_n(picture.row(to - y) + 3 * (left - x), 3 * (right - left), row(to) + 3 * left);
+  }
+}
+
+}  // namespace twin::render
