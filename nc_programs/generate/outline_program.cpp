@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nc_programs/generate/nc_text.hpp"
-
 namespace twin::programs {
 namespace {
 
