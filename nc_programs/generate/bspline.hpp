@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace twin::programs {
 template <int Dim>
 struct BSpline {
   using Point = Eigen::Matrix<double, Dim, 1>;
+
+  static constexpr std::size_t kMaxDegree = 5;
 
   int degree = 0;             ///< p
   std::vector<double> knots;  ///< t_0 .. t_{n+p+1}, clamped
@@ -37,8 +40,8 @@ struct BSpline {
   [[nodiscard]] Point at(double t) const {
     const auto p = static_cast<std::size_t>(degree);
     const std::size_t k = span(t);
-    std::vector<Point> d(points.begin() + static_cast<std::ptrdiff_t>(k - p),
-                         points.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    std::array<Point, kMaxDegree + 1> d;
+    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(k - p), p + 1, d.begin());
     for (std::size_t r = 1; r <= p; ++r) {
       for (std::size_t j = p; j >= r; --j) {
         const double low = knots[j + k - p];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace twin::programs {
 namespace {
@@ -60,6 +62,10 @@ Chords linearise(const Outline& outline, const ChordTarget& target, double start
   const double e = std::sqrt(low * high);
   std::vector<double> n = chord_count(outline, target, e);
   const double scale = target.blocks / n.back();  // 1 but for the last bits
+  if (std::abs(scale - 1.0) > 1e-9) {
+    throw std::runtime_error("no chord tolerance gives " + std::to_string(target.blocks) +
+                             " chords, the nearest is " + std::to_string(n.back()));
+  }
   for (double& value : n) {
     value *= scale;
   }

@@ -30,6 +30,7 @@ struct Chords {
 /// counts up by one from the start; e is found by bisection so that n once around is the wanted
 /// number. No chord is left over at the closing point.
 /// @param start  arc length of the first point [mm]
+/// @throws std::runtime_error if no e gives the wanted number within the shortest and longest chord
 Chords linearise(const Outline& outline, const ChordTarget& target, double start);
 
 }  // namespace twin::programs

@@ -3,14 +3,13 @@
 #include <exception>
 #include <fstream>
 
-#include "nc_programs/generate/shapes.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 int main(int argc, char** argv) {
   using namespace twin::programs;
   const std::string directory = argc > 1 ? argv[1] : "nc_programs";
   try {
-    for (const OutlineSpec& spec : {oxalis(), dolphin()}) {
-      const ProgramFile file = outline_program(spec);
+    for (const ProgramFile& file : all_programs()) {
       std::ofstream out(directory + "/" + file.name, std::ios::binary);
       out << file.text;
       if (!out.flush()) {

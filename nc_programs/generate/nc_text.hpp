@@ -6,6 +6,12 @@
 
 namespace twin::programs {
 
+/// A file of nc_programs/ as text.
+struct ProgramFile {
+  std::string name;  ///< file name
+  std::string text;  ///< all of it
+};
+
 /// The coordinates as the file will hold them, to 4 decimals [mm].
 Point2 round_to_file(const Point2& p);
 

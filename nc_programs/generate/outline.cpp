@@ -53,7 +53,7 @@ void Outline::append(const Frame& frame, double ds) {
   frames_.push_back(frame);
 }
 
-double Outline::middle_of(std::size_t i, double fraction) const {
+double Outline::at_curve(std::size_t i, double fraction) const {
   return curve_begin_[i] + fraction * (curve_end_[i] - curve_begin_[i]);
 }
 

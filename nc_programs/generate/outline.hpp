@@ -22,8 +22,8 @@ class Outline {
   [[nodiscard]] const std::vector<double>& arc_lengths() const { return s_; }
   /// Frames at arc_lengths(); the last is the first again.
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
-  /// Arc length at the middle of curve i, as chained [mm].
-  [[nodiscard]] double middle_of(std::size_t i, double fraction = 0.5) const;
+  /// Arc length at a fraction of what the rounds left of curve i [mm].
+  [[nodiscard]] double at_curve(std::size_t i, double fraction) const;
 
  private:
   void append(const Frame& frame, double ds);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nc_programs/generate/nc_text.hpp"
-
 namespace twin::programs {
 namespace {
 
@@ -48,7 +46,7 @@ OutlineResult solve_outline(const OutlineSpec& spec) {
     scale *= wanted / build_outline(curves, scale, spec.round).length();
   }
   const Outline outline = build_outline(curves, scale, spec.round);
-  const double start = outline.middle_of(spec.start_curve, spec.start_fraction);
+  const double start = outline.at_curve(spec.start_curve, spec.start_fraction);
   Chords chords = linearise(outline, spec.chords, start);
   const Frame f = outline.at(start);
   const double approach = 0.5 * (spec.path_length - polygon_length(chords.points));

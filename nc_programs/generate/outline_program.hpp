@@ -4,14 +4,9 @@
 #include <vector>
 
 #include "nc_programs/generate/linearise.hpp"
+#include "nc_programs/generate/nc_text.hpp"
 
 namespace twin::programs {
-
-/// A file of nc_programs/ as text.
-struct ProgramFile {
-  std::string name;  ///< file name
-  std::string text;
-};
 
 /// What it takes to make a program of a closed figure.
 struct OutlineSpec {

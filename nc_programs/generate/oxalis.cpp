@@ -7,9 +7,9 @@ namespace twin::programs {
 namespace {
 
 /// Right half of a leaflet that points up, from the corner at the centre to the notch.
-const std::vector<Point2> kHalfLeaflet = {{1.90, 1.10}, {4.2, 5.2},   {7.0, 10.0},  {10.2, 15.2},
-                                          {12.6, 20.3}, {12.9, 25.2}, {10.4, 28.7}, {6.7, 29.4},
-                                          {3.4, 27.6},  {0.0, 23.2}};
+const std::vector<Point2> kHalfLeaflet = {{1.90, 1.10}, {4.2, 4.9},   {7.3, 9.8},   {10.8, 14.8},
+                                          {13.7, 19.8}, {14.5, 24.6}, {12.2, 28.6}, {8.0, 29.8},
+                                          {3.9, 27.8},  {0.0, 22.6}};
 
 Point2 rotated(const Point2& p, double angle) {
   const double c = std::cos(angle);
@@ -40,7 +40,7 @@ OutlineSpec oxalis() {
   spec.mean_length = 0.262;
   spec.path_length = 309.0;
   spec.start_curve = 4;
-  spec.start_fraction = 0.5;
+  spec.start_fraction = 0.43;
   spec.approach_side = -1.0;
   return spec;
 }

@@ -1,6 +1,7 @@
 #include "nc_programs/generate/rounding.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

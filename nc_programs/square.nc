@@ -1,0 +1,25 @@
+(square: 40 mm, then a zigzag with corner angles of 165, 150, .. 15 deg; 180 deg is straight on)
+(made by twin_generate_programs, see README.md; starts at X0 Y0 Z0)
+G21 G17 G90 G94
+G64
+G01 F3000
+X40.0000
+Y40.0000
+X0.0000
+Y0.0000
+X-20.0000 Y-15.0000
+(zigzag)
+X-8.0000 Y-15.0000
+X3.5911 Y-11.8942
+X15.1822 Y-15.0000
+X25.5745 Y-9.0000
+X35.9668 Y-15.0000
+X44.4521 Y-6.5147
+X52.9374 Y-15.0000
+X58.9374 Y-4.6077
+X64.9374 Y-15.0000
+X68.0432 Y-3.4089
+X71.1490 Y-15.0000
+X71.1490 Y-3.0000
+X0.0000 Y0.0000
+M30

@@ -1,0 +1,19 @@
+#include <gtest/gtest.h>
+
+#include "nc_file.hpp"
+#include "nc_programs/generate/programs.hpp"
+
+namespace twin::programs {
+namespace {
+
+TEST(Generator, WritesTheFilesThatAreKept) {
+  const std::vector<ProgramFile> made = all_programs();
+  ASSERT_EQ(made.size(), 6U);
+  for (const ProgramFile& file : made) {
+    EXPECT_TRUE(file.text == test::read_file(file.name))
+        << file.name << " differs; run twin_generate_programs nc_programs";
+  }
+}
+
+}  // namespace
+}  // namespace twin::programs
