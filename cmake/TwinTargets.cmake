@@ -42,8 +42,12 @@ function(twin_test name)
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE TWIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  set(label_property)
+  if(ARG_LABELS)
+    set(label_property LABELS "${ARG_LABELS}")
+  endif()
   gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 300)
+    PROPERTIES TIMEOUT 300 ${label_property})
 endfunction()
 
 # twin_bench(gcode SOURCES a_bench.cpp DEPS twin_gcode) makes program gcode_bench (Google Benchmark).

@@ -22,4 +22,10 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
   return root > 0.0 ? 2.0 * at / root : std::numeric_limits<double>::infinity();
 }
 
+double corner_ripple_feedrate(double turn, double jerk, double period) noexcept {
+  constexpr double kRipple = 0.1;  // of J_max
+  return turn > 0.0 ? 2.0 * kRipple * jerk * period * period / (turn * turn)
+                    : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace twin::feedrate

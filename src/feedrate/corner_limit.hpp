@@ -23,4 +23,24 @@ double corner_model_feedrate(double turn, double corner_error, const PlanningMod
 double corner_acceleration_feedrate(double turn, double curvature, double acceleration,
                                     double period) noexcept;
 
+/// Feedrate at which a corner between two set points does not look like jerk.
+///
+/// The chord across the corner is shorter than the way by up to v T turn^2 / 8, depending on where in the period the
+/// corner falls. A corner by itself can be told from a change of feedrate; one of several in a few periods, or one beside
+/// a bend, cannot: there the set points' own third difference, up to four times that over T^3, must stay small:
+///   v turn^2 / (2 T^2) <= kRipple J.
+///
+/// @param jerk  J_max [mm/s^3]
+/// @returns [mm/s]; infinity for no turn
+double corner_ripple_feedrate(double turn, double jerk, double period) noexcept;
+
+/// A corner that turns by more than this stands out of any bend [rad].
+inline constexpr double kSharpTurn = 0.7;
+
+/// Periods around a corner in which another turn hides it.
+inline constexpr double kHidingPeriods = 3.5;
+
+/// Share of a corner's turn that hides it.
+inline constexpr double kHidingShare = 0.125;
+
 }  // namespace twin::feedrate

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "feedrate/corner_limit.hpp"
@@ -62,29 +63,45 @@ void LookAhead::append_junction(const path::Segment& before, const path::Segment
   const double curvature =
       std::max(curvature_near_end(before, true, reach), curvature_near_end(after, false, reach));
   const double corner_error = std::min(before.corner_error, after.corner_error);
-  const double limit =
+  double limit =
       std::min(corner_model_feedrate(turn, corner_error, model_),
                corner_acceleration_feedrate(turn, curvature, limits_.acceleration, period_));
+  if (turn < kSharpTurn && curvature > 0.0) {
+    limit = std::min(limit, std::max(kHidingShare * turn / (curvature * period_),
+                                     corner_ripple_feedrate(turn, limits_.jerk, period_)));
+  }
   zones_.push_back({length_, length_, limit});
   limit_cluster(turn, length_);
 }
 
-/// Corners that one period may hold together count together: where the turns of several corners,
-/// over the distance l from the first to the last, sum to phi, the feedrate either keeps them apart
-/// (v T <= l) or obeys the corner rule for phi.
+/// Corners a few periods apart limit each other. Where the turns of several corners, over the distance l from the first
+/// to the last, sum to phi, the feedrate either keeps them apart (v T <= l) or obeys the corner rule for phi. And where
+/// one hides the other from the set points, it either puts kHidingPeriods between them or keeps the ripple small.
 void LookAhead::limit_cluster(double turn, double s) {
   LimitZone& latest = zones_.back();
+  const auto lower = [](LimitZone& zone, double limit) { zone.limit = std::min(zone.limit, limit); };
   double sum = turn;
-  auto it = turns_.rbegin();
-  for (; it != turns_.rend() && s - it->s < latest.limit * period_; ++it) {
-    sum += it->angle;
-    const double together =
-        corner_acceleration_feedrate(std::min(sum, M_PI), 0.0, limits_.acceleration, period_);
-    const double limit = std::max((s - it->s) / period_, together);
-    latest.limit = std::min(latest.limit, limit);
-    zones_[it->zone].limit = std::min(zones_[it->zone].limit, limit);
+  for (auto old = turns_.rbegin(); old != turns_.rend(); ++old) {
+    const double apart = (s - old->s) / period_;
+    if (apart >= kHidingPeriods * latest.limit) {
+      break;
+    }
+    sum += old->angle;
+    LimitZone& zone = zones_[old->zone];
+    const double together = corner_acceleration_feedrate(
+        std::min(sum, std::numbers::pi), 0.0, limits_.acceleration, period_);
+    lower(latest, std::max(apart, together));
+    lower(zone, std::max(apart, together));
+    const auto limit_hidden = [&](double hidden, double hiding, LimitZone& place) {
+      if (hidden < kSharpTurn && hiding > kHidingShare * hidden) {
+        lower(place, std::max(apart / kHidingPeriods,
+                              corner_ripple_feedrate(hidden, limits_.jerk, period_)));
+      }
+    };
+    limit_hidden(turn, old->angle, latest);
+    limit_hidden(old->angle, turn, zone);
   }
-  const double forget = s - limits_.feedrate * period_;
+  const double forget = s - kHidingPeriods * limits_.feedrate * period_;
   std::erase_if(turns_, [&](const Turn& old) { return old.s < forget; });
   turns_.push_back({s, turn, zones_.size() - 1});
 }
