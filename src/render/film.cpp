@@ -10,7 +10,7 @@ namespace {
 
 constexpr Colour kPlate{247, 247, 242};
 constexpr Colour kPaper{250, 250, 247};
-constexpr double kPlateLine = 8.0;     // [texels] on the plate
+constexpr double kPlateLine = 9.0;     // [texels] on the plate
 constexpr double kInsetLine = 2.2;     // [pixels]
 constexpr double kInsetMargin = 10.0;  // [pixels]
 

@@ -46,6 +46,8 @@ MipTexture::MipTexture(unsigned name) : name_(name) {
   glBindTexture(GL_TEXTURE_2D, name_);
   glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width_);
   glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height_);
+  // Thin lines stay dark: levels three quarters of a step larger than OpenGL would take.
+  glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, -0.75F);
   for (int level = 1; level < 32; ++level) {
     int width = 0;
     int height = 0;

@@ -125,6 +125,30 @@ TEST(VideoEncoder, OddSizesAndUnwritableFilesAreRefused) {
             "/nonexistent/v.mp4: cannot write: No such file or directory");
 }
 
+TEST(VideoEncoder, AFullDiskIsAnErrorAndLeavesNoFile) {
+  const TemporaryDirectory directory;
+  {
+    auto encoder = VideoEncoder::open(directory.path() / "v.mp4", 640, 480, 25);
+    ASSERT_TRUE(encoder);
+    const test::FileSizeLimit limit(20000);
+    Image noise(640, 480);
+    Expected<void> done;
+    for (int i = 0; i < 100 && done; ++i) {
+      for (int k = 0; k < 640 * 480 * 3; ++k) {
+        noise.data()[k] = static_cast<std::uint8_t>(
+            (static_cast<unsigned>(k) * 7919U + static_cast<unsigned>(i) * 104729U) >> 5U);
+      }
+      done = encoder->push(noise);
+    }
+    if (done) {
+      done = encoder->finish();
+    }
+    ASSERT_FALSE(done);
+    EXPECT_THAT(to_string(done.error()), testing::HasSubstr("cannot write: File too large"));
+  }
+  EXPECT_TRUE(fs::is_empty(directory.path()));
+}
+
 TEST(Png, APictureReadsBackPixelForPixel) {
   const TemporaryDirectory directory;
   Image image(31, 17);

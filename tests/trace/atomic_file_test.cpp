@@ -1,10 +1,6 @@
 #include "core/atomic_file.hpp"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <csignal>
 
 #include "tests/trace/files.hpp"
 #include "tests/trace/synthetic_trace.hpp"
@@ -87,30 +83,12 @@ TEST(AtomicFile, ADirectoryInThePlaceOfTheTargetIsAnError) {
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "a.tmp"));
 }
 
-/// A file size limit gives the same short and failing writes as a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
 TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesNoWholeFile) {
   const TemporaryDirectory directory;
   const auto target = directory.path() / "a";
   auto file = AtomicFile::create(target, directory.path() / "a.partial", OnAbandon::kKeep);
   ASSERT_TRUE(file);
-  const FileSizeLimit limit(100000);
+  const test::FileSizeLimit limit(100000);
   Expected<void> written;
   for (int i = 0; i < 300 && written; ++i) {
     written = file->write(std::string(1000, 'x'));
