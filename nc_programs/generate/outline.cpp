@@ -6,7 +6,7 @@
 namespace twin::programs {
 namespace {
 
-constexpr double kTableStep = 0.004;  // [mm]
+constexpr double kTableStep = 0.01;  // [mm]
 
 /// Length of the curve between two near parameters by Gauss-Legendre quadrature with three points
 /// [mm].

@@ -31,19 +31,18 @@ OutlineResult solve_outline(const OutlineSpec& spec) {
   for (const auto& sketch : spec.sketch) {
     curves.emplace_back(sketch, spec.smoothing);
   }
+  double sketch_length = 0.0;
+  for (const FairCurve& c : curves) {
+    sketch_length += c.end() - c.begin();
+  }
   const double wanted = spec.chords.blocks * spec.mean_length;
   // Rounds keep their radius while the figure grows, so its length is not quite proportional to the
   // scale.
-  double scale = 1.0;
-  for (int i = 0; i < 3; ++i) {
-    double length = 0.0;
-    for (const FairCurve& c : curves) {
-      length += scale * (c.end() - c.begin());
-    }
-    scale *= wanted / length;
-  }
-  for (int i = 0; i < 8; ++i) {
-    scale *= wanted / build_outline(curves, scale, spec.round).length();
+  double scale = wanted / sketch_length;
+  double ratio = 2.0;
+  for (int i = 0; i < 20 && std::abs(ratio - 1.0) > 1e-10; ++i) {
+    ratio = wanted / build_outline(curves, scale, spec.round).length();
+    scale *= ratio;
   }
   const Outline outline = build_outline(curves, scale, spec.round);
   const double start = outline.at_curve(spec.start_curve, spec.start_fraction);

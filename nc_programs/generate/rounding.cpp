@@ -9,7 +9,7 @@
 namespace twin::programs {
 namespace {
 
-constexpr int kSteps = 800;
+constexpr int kSteps = 400;
 
 double smooth_step(double x) {
   const double c = std::min(std::max(x, 0.0), 1.0);
