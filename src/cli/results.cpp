@@ -9,6 +9,7 @@
 #include "metrics/block_distance.hpp"
 #include "metrics/summary.hpp"
 #include "plot/figures.hpp"
+#include "render/video.hpp"
 
 namespace twin::cli {
 
@@ -64,10 +65,21 @@ Expected<void> write_plots(const std::filesystem::path& folder,
   return {};
 }
 
-Expected<void> write_video(const std::filesystem::path& /*folder*/,
-                           const std::filesystem::path& /*model*/, const std::string& /*title*/,
-                           const Options& /*options*/) {
-  return fail(ErrorCode::kMachine, "no video yet");
+Expected<void> write_video(const std::filesystem::path& folder, const std::filesystem::path& model,
+                           const std::string& title, const Options& options) {
+  Progress progress("video", options.quiet);
+  render::VideoInput input;
+  input.trace_csv = folder / "trace.csv";
+  input.scene_xml = model.parent_path() / "scene.xml";
+  input.output = folder / "video.mp4";
+  input.title = title;
+  input.camera = options.camera;
+  input.progress = progress.callback();
+  auto report = render::write_video(input);
+  if (!report) {
+    return tl::unexpected(report.error());
+  }
+  return {};
 }
 
 }  // namespace twin::cli

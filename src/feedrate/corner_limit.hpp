@@ -25,9 +25,10 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
 
 /// Feedrate at which a corner between two set points does not look like jerk.
 ///
-/// The chord across the corner is shorter than the way by up to v T turn^2 / 8, depending on where in the period the
-/// corner falls. A corner by itself can be told from a change of feedrate; one of several in a few periods, or one beside
-/// a bend, cannot: there the set points' own third difference, up to four times that over T^3, must stay small:
+/// The chord across the corner is shorter than the way by up to v T turn^2 / 8, depending on where
+/// in the period the corner falls. A corner by itself can be told from a change of feedrate; one of
+/// several in a few periods, or one beside a bend, cannot: there the set points' own third
+/// difference, up to four times that over T^3, must stay small:
 ///   v turn^2 / (2 T^2) <= kRipple J.
 ///
 /// @param jerk  J_max [mm/s^3]

@@ -74,12 +74,15 @@ void LookAhead::append_junction(const path::Segment& before, const path::Segment
   limit_cluster(turn, length_);
 }
 
-/// Corners a few periods apart limit each other. Where the turns of several corners, over the distance l from the first
-/// to the last, sum to phi, the feedrate either keeps them apart (v T <= l) or obeys the corner rule for phi. And where
-/// one hides the other from the set points, it either puts kHidingPeriods between them or keeps the ripple small.
+/// Corners a few periods apart limit each other. Where the turns of several corners, over the
+/// distance l from the first to the last, sum to phi, the feedrate either keeps them apart (v T <=
+/// l) or obeys the corner rule for phi. And where one hides the other from the set points, it
+/// either puts kHidingPeriods between them or keeps the ripple small.
 void LookAhead::limit_cluster(double turn, double s) {
   LimitZone& latest = zones_.back();
-  const auto lower = [](LimitZone& zone, double limit) { zone.limit = std::min(zone.limit, limit); };
+  const auto lower = [](LimitZone& zone, double limit) {
+    zone.limit = std::min(zone.limit, limit);
+  };
   double sum = turn;
   for (auto old = turns_.rbegin(); old != turns_.rend(); ++old) {
     const double apart = (s - old->s) / period_;
@@ -88,8 +91,8 @@ void LookAhead::limit_cluster(double turn, double s) {
     }
     sum += old->angle;
     LimitZone& zone = zones_[old->zone];
-    const double together = corner_acceleration_feedrate(
-        std::min(sum, std::numbers::pi), 0.0, limits_.acceleration, period_);
+    const double together = corner_acceleration_feedrate(std::min(sum, std::numbers::pi), 0.0,
+                                                         limits_.acceleration, period_);
     lower(latest, std::max(apart, together));
     lower(zone, std::max(apart, together));
     const auto limit_hidden = [&](double hidden, double hiding, LimitZone& place) {
