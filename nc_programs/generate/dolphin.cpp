@@ -87,6 +87,7 @@ OutlineSpec dolphin() {
   spec.title = "dolphin: leaping, from the side";
   for (const auto& curve : kStraight) {
     std::vector<Point2> points;
+    points.reserve(curve.size());
     for (const Point2& p : curve) {
       points.push_back(bent(p));
     }

@@ -68,12 +68,12 @@ ProgramFile square_program() {
   nc.comment("made by twin_generate_programs, see README.md; starts at X0 Y0 Z0");
   nc.start_of_program(3000.0);
   lines(nc, {"X40.0000", "Y40.0000", "X0.0000", "Y0.0000", "X-20.0000 Y-15.0000", "(zigzag)"});
-  constexpr double kLeg = 12.0;  // [mm]
+  const double leg = 12.0;  // [mm]
   Point2 p(-20.0, -15.0);
   double heading = 0.0;
   double sense = 1.0;
   for (int corner = 165; corner >= 0; corner -= 15) {
-    p += kLeg * Point2(std::cos(heading), std::sin(heading));
+    p += leg * Point2(std::cos(heading), std::sin(heading));
     nc.line_to(p);
     heading += sense * (180 - corner) * kDegree;
     sense = -sense;

@@ -18,6 +18,7 @@ double polygon_length(const std::vector<Point2>& points) {
 
 Outline build_outline(const std::vector<FairCurve>& curves, double scale, const RoundShape& shape) {
   std::vector<FairCurve> sized;
+  sized.reserve(curves.size());
   for (const FairCurve& c : curves) {
     sized.push_back(c.scaled(scale));
   }

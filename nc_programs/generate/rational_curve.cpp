@@ -105,6 +105,7 @@ std::vector<Point2> linearise(const RationalCurve& curve, double tolerance, doub
     }
   }
   std::vector<Point2> out;
+  out.reserve(best.size());
   for (const double u : best) {
     out.push_back(curve.point(u));
   }
