@@ -2,9 +2,20 @@
 
 #include <GL/osmesa.h>
 
+#ifdef __SANITIZE_ADDRESS__
+// Mesa keeps what it set up for the first contexts in a list of its own until the process ends.
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "leak:libOSMesa.so";
+}
+#endif
+
 namespace twin::render {
 
 void OffscreenContext::Destroy::operator()(osmesa_context* context) const noexcept {
+  if (OSMesaGetCurrentContext() == context) {
+    OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);  // lets go of the buffer too
+  }
   OSMesaDestroyContext(context);
 }
 
