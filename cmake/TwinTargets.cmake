@@ -16,7 +16,8 @@ endif()
 add_library(twin_options INTERFACE)
 target_include_directories(twin_options INTERFACE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/src")
 target_compile_options(twin_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Werror)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Werror
+  -Wno-restrict)  # g++ 12 is wrong about "literal" + std::string(...)
 if(TWIN_SANITIZE)
   target_compile_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE})

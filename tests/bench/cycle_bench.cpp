@@ -1,0 +1,110 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/machine_file.hpp"
+#include "gcode/reader.hpp"
+#include "hal/ideal/ideal_machine.hpp"
+#include "hal/mujoco/mujoco_machine.hpp"
+#include "runtime/cycle.hpp"
+#include "runtime/planning.hpp"
+
+/// Cost of one interpolation period. The position of a curve alone (nurbs_bench) is the reference
+/// beside it.
+namespace twin::runtime {
+namespace {
+
+/// Hands out the same planned segments over and over.
+class LoopingSource final : public interpolator::SegmentSource {
+ public:
+  explicit LoopingSource(std::vector<feedrate::PlannedSegment>&& plan) : plan_(std::move(plan)) {}
+  const feedrate::PlannedSegment* next() noexcept override {
+    return &plan_[next_++ % plan_.size()];
+  }
+  void release(const feedrate::PlannedSegment* /*segment*/) noexcept override {}
+  bool is_finished() const noexcept override { return false; }
+
+ private:
+  std::vector<feedrate::PlannedSegment> plan_;
+  std::size_t next_ = 0;
+};
+
+std::vector<feedrate::PlannedSegment> plan_of_circle() {
+  std::string text = "G21 G90 G17 G64\nG01 F3000\n";
+  for (int i = 1; i <= 4000; ++i) {
+    const double angle = 2.0 * M_PI * i / 1000.0;
+    text += fmt::format("X{:.4f} Y{:.4f}\n", 40.0 * std::cos(angle) - 40.0, 40.0 * std::sin(angle));
+  }
+  std::vector<feedrate::PlannedSegment> plan;
+  gcode::Reader reader = gcode::Reader::from_text(text, "bench.nc");
+  (void)plan_program(reader, config::MachineFile{}, true, [&](feedrate::PlannedSegment&& planned) {
+    plan.push_back(std::move(planned));
+    return true;
+  });
+  return plan;
+}
+
+/// Interpolator alone, on curves of 20 blocks.
+void interpolate(benchmark::State& state) {
+  LoopingSource source(plan_of_circle());
+  interpolator::Interpolator interpolator(source, 0.001);
+  interpolator::SetPoint set_point;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(interpolator.step(set_point));
+    benchmark::DoNotOptimize(set_point);
+  }
+}
+
+/// Interpolator and servo of both axes: the whole cycle but for the machine.
+void interpolate_and_servo(benchmark::State& state) {
+  LoopingSource source(plan_of_circle());
+  interpolator::Interpolator interpolator(source, 0.001);
+  hal::IdealMachine machine;
+  if (!machine.configure(0.001) || !machine.activate()) {
+    state.SkipWithError("no machine");
+    return;
+  }
+  Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001);
+  trace::Sample sample;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(cycle.prepare());
+    benchmark::DoNotOptimize(cycle.exchange(sample));
+    benchmark::DoNotOptimize(sample);
+  }
+}
+
+/// The same with the simulated table: ten physics steps of 0.1 ms a period.
+void whole_period_on_the_table(benchmark::State& state) {
+  LoopingSource source(plan_of_circle());
+  interpolator::Interpolator interpolator(source, 0.001);
+  hal::TableParams params;
+  params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
+  hal::MujocoMachine machine(params);
+  if (!machine.configure(0.001) || !machine.activate()) {
+    state.SkipWithError("no machine");
+    return;
+  }
+  Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001);
+  trace::Sample sample;
+  for (auto _ : state) {
+    cycle.prepare();
+    if (cycle.exchange(sample) != hal::Status::kOk) {
+      state.SkipWithError("the machine failed");
+      return;
+    }
+  }
+  state.counters["physics_steps"] = 10;
+}
+
+BENCHMARK(interpolate);
+BENCHMARK(interpolate_and_servo);
+BENCHMARK(whole_period_on_the_table);
+
+}  // namespace
+}  // namespace twin::runtime
