@@ -7,6 +7,7 @@ namespace twin::feedrate {
 namespace {
 
 constexpr double kPlaceRounding = 1e-9;  // [mm]
+constexpr double kSameFeedrate = 1e-9;   // relative
 
 double highest_limit(std::span<const LimitZone> zones, double from, double to) {
   double highest = 0.0;
@@ -50,7 +51,7 @@ bool Envelope::settle(const Piece& piece) {
   Interval fast{};
   for (std::size_t i = 0; i < zones.size(); ++i) {
     const LimitZone& zone = zones[i];
-    if (zone.limit >= hump.peak * (1.0 - 1e-12) ||
+    if (zone.limit >= hump.peak * (1.0 - kSameFeedrate) ||
         (worst < zones.size() && zone.limit >= zones[worst].limit)) {
       continue;
     }
@@ -68,15 +69,20 @@ bool Envelope::settle(const Piece& piece) {
   const bool enters_fast = is_inside(zone.begin, fast);
   const bool leaves_fast = is_inside(zone.end, fast);
   if (!enters_fast && !leaves_fast) {
-    if (zone.limit < std::max(piece.a.v, piece.b.v) * (1.0 - 1e-9)) {
-      return false;
-    }
-    Piece lower = piece;
-    lower.cap = zone.limit;
-    pending_.push_back(lower);
-    return true;
+    return lower_cap(piece, zone.limit);
   }
   return split(piece, piece.first + worst, enters_fast, leaves_fast);
+}
+
+/// One hump under the limit of a zone always fits, as long as neither end is faster.
+bool Envelope::lower_cap(const Piece& piece, double limit) {
+  if (limit < std::max(piece.a.v, piece.b.v) * (1.0 - kSameFeedrate)) {
+    return false;
+  }
+  Piece lower = piece;
+  lower.cap = limit;
+  pending_.push_back(lower);
+  return true;
 }
 
 bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bool leaves_fast) {
@@ -102,7 +108,7 @@ bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bo
   // Pieces are pushed last first, so that they are settled in path order.
   if (enters_fast && leaves_fast) {
     if (!is_reachable(a, in, limits_) || !is_reachable(out, b, limits_)) {
-      return false;
+      return lower_cap(piece, zone.limit);
     }
     pending_.push_back({out, b, index + 1, piece.last, piece.cap});
     if (!is_place) {
@@ -114,7 +120,7 @@ bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bo
   const Knot& knot = enters_fast ? in : out;
   const std::size_t border = enters_fast ? index : index + 1;
   if (!is_reachable(a, knot, limits_) || !is_reachable(knot, b, limits_)) {
-    return false;
+    return lower_cap(piece, zone.limit);
   }
   pending_.push_back({knot, b, border, piece.last, piece.cap});
   pending_.push_back({a, knot, piece.first, border, piece.cap});

@@ -50,6 +50,7 @@ class Envelope {
   };
 
   bool settle(const Piece& piece);
+  bool lower_cap(const Piece& piece, double limit);
   bool split(const Piece& piece, std::size_t zone, bool enters_fast, bool leaves_fast);
 
   RampLimits limits_;

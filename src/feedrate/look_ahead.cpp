@@ -110,39 +110,43 @@ void LookAhead::limit_cluster(double turn, double s) {
 }
 
 void LookAhead::plan(bool is_last) {
-  const auto from = std::find_if(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
-    return zone.end > start_.s + kPlaceRounding;
-  });
-  const std::span<const LimitZone> ahead(from, zones_.end());
-  const Knot end{length_, 0.0};
-  if (envelope_.plan(ahead, start_, end)) {
-    plan_ = envelope_.humps();
-  } else {
+  while (!plan_window()) {
     ++fallbacks_;
-    if (start_.v == 0.0) {  // from rest a single low limit can always be kept
-      std::vector<LimitZone> even(ahead.begin(), ahead.end());
-      double lowest = limits_.feedrate;
-      for (const LimitZone& zone : even) {
-        lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
-      }
-      for (LimitZone& zone : even) {
-        zone.limit = std::min(zone.limit, lowest);
-      }
-      envelope_.plan(even, start_, end);
-      plan_ = envelope_.humps();
-    } else {
-      commit(plan_.back().b);  // the last plan's way to rest, then on from there
-      plan(is_last);
-      return;
-    }
+    commit(plan_.front().b);  // the last plan stands: one hump further along it
   }
   commit(commit_knot(is_last));
   emit_covered(is_last);
 }
 
-/// Last place of the plan that the window's end does not slow down: a knot at its own limit or a
-/// hold under a cap. Where there is none, the last peak; where not even that, the start, and the
-/// window grows.
+/// Plans from start_ to rest at the window's end. From rest that always succeeds, if need be under
+/// the lowest limit.
+bool LookAhead::plan_window() {
+  const auto from = std::find_if(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
+    return zone.end > start_.s + kPlaceRounding;
+  });
+  std::vector<LimitZone> ahead(from, zones_.end());
+  const Knot end{length_, 0.0};
+  if (!envelope_.plan(ahead, start_, end)) {
+    if (start_.v > 0.0) {
+      return false;
+    }
+    double lowest = limits_.feedrate;
+    for (const LimitZone& zone : ahead) {
+      lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
+    }
+    for (LimitZone& zone : ahead) {
+      zone.limit = std::min(zone.limit, lowest);
+    }
+    ++fallbacks_;
+    envelope_.plan(ahead, start_, end);
+  }
+  plan_ = envelope_.humps();
+  return true;
+}
+
+/// Last place of the plan that the window's end does not slow down: a hold, as long as any lower
+/// limit known by then can still be braked for, or a knot at its own limit after which the feedrate
+/// rises. Where there is none, the last peak; where not even that, the start, and the window grows.
 Knot LookAhead::commit_knot(bool is_last) const {
   if (is_last) {
     return plan_.back().b;
@@ -150,15 +154,18 @@ Knot LookAhead::commit_knot(bool is_last) const {
   const double latest = length_ - 4.0 * limits_.feedrate * period_;
   Knot best = start_;
   Knot peak = start_;
-  for (const Hump& hump : plan_) {
+  for (std::size_t i = 0; i < plan_.size(); ++i) {
+    const Hump& hump = plan_[i];
     const double hold_begin = hump.a.s + hump.up;
-    const double hold_end = std::min(hump.b.s - hump.down, latest);
+    const double braking =
+        ramp_distance(hump.peak, hump.peak / 3.0, ramp_);  // the longest from there
+    const double hold_end = std::min(hump.b.s - hump.down - braking, latest);
     if (hold_end - hold_begin > kPlaceRounding) {
       best = {hold_end, hump.peak};
     } else if (hold_begin <= latest) {
       peak = {hold_begin, hump.peak};
     }
-    if (hump.b.is_at_limit && hump.b.s <= latest) {
+    if (hump.b.is_at_limit && hump.b.s <= latest && i + 1 < plan_.size() && plan_[i + 1].up > 0.0) {
       best = hump.b;
     }
   }

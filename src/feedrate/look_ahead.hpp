@@ -22,8 +22,8 @@ namespace twin::feedrate {
 ///           down
 ///
 /// Since every plan ends at rest inside what is known, the settled part can always be followed by a
-/// feasible one: should a new plan fail, the rest of the last one is taken, which only costs time.
-/// The result depends on the segments alone, not on when they arrive.
+/// feasible one: should a new plan fail, the last one is followed one hump further, which only
+/// costs time. The result depends on the segments alone, not on when they arrive.
 class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;
@@ -37,13 +37,14 @@ class LookAhead {
   /// No more segments follow: the path ends at rest.
   void finish();
 
-  /// How often the rest of an earlier plan had to be taken.
+  /// How often an earlier plan had to be followed further than it was settled.
   std::int64_t fallbacks() const noexcept { return fallbacks_; }
 
  private:
   void append_junction(const path::Segment& before, const path::Segment& after);
   void limit_cluster(double turn, double s);
   void plan(bool is_last);
+  bool plan_window();
   Knot commit_knot(bool is_last) const;
   void commit(const Knot& knot);
   void emit_covered(bool is_last);

@@ -19,7 +19,7 @@ struct PlanFigures {
   std::int64_t arcs = 0;
   double path_length = 0.0;    ///< along the segments [mm]
   double time = 0.0;           ///< planned time [s]
-  std::int64_t fallbacks = 0;  ///< plans that had to take the rest of an earlier one
+  std::int64_t fallbacks = 0;  ///< plans that could not be made and followed an earlier one
 };
 
 /// The whole planning chain, text to planned segments: Reader, PathBuilder, LookAhead.
