@@ -19,8 +19,8 @@ double measured_length(const gcode::ArcGeometry& g, double f_end = 1.0) {
   const auto polygon = [&](int count) {
     double length = 0.0;
     for (int i = 0; i < count; ++i) {
-      length += (defined_place(g, f_end * (i + 1) / count) - defined_place(g, f_end * i / count))
-                    .norm();
+      length +=
+          (defined_place(g, f_end * (i + 1) / count) - defined_place(g, f_end * i / count)).norm();
     }
     return length;
   };
