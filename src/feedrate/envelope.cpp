@@ -67,16 +67,16 @@ bool Envelope::settle(const Piece& piece) {
   const LimitZone& zone = zones[worst];
   const bool enters_fast = is_inside(zone.begin, fast);
   const bool leaves_fast = is_inside(zone.end, fast);
-  if (!enters_fast && !leaves_fast) {
-    if (zone.limit < std::max(piece.a.v, piece.b.v) * (1.0 - 1e-9)) {
-      return false;
-    }
-    Piece lower = piece;
-    lower.cap = zone.limit;
-    pending_.push_back(lower);
+  if ((enters_fast || leaves_fast) && split(piece, piece.first + worst, enters_fast, leaves_fast)) {
     return true;
   }
-  return split(piece, piece.first + worst, enters_fast, leaves_fast);
+  if (zone.limit < std::max(piece.a.v, piece.b.v) * (1.0 - 1e-9)) {
+    return false;
+  }
+  Piece lower = piece;
+  lower.cap = zone.limit;
+  pending_.push_back(lower);
+  return true;
 }
 
 bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bool leaves_fast) {
