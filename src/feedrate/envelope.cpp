@@ -68,19 +68,14 @@ bool Envelope::settle(const Piece& piece) {
   const LimitZone& zone = zones[worst];
   const bool enters_fast = is_inside(zone.begin, fast);
   const bool leaves_fast = is_inside(zone.end, fast);
-  if (!enters_fast && !leaves_fast) {
-    return lower_cap(piece, zone.limit);
+  if ((enters_fast || leaves_fast) && split(piece, piece.first + worst, enters_fast, leaves_fast)) {
+    return true;
   }
-  return split(piece, piece.first + worst, enters_fast, leaves_fast);
-}
-
-/// One hump under the limit of a zone always fits, as long as neither end is faster.
-bool Envelope::lower_cap(const Piece& piece, double limit) {
-  if (limit < std::max(piece.a.v, piece.b.v) * (1.0 - kSameFeedrate)) {
+  if (zone.limit < std::max(piece.a.v, piece.b.v) * (1.0 - kSameFeedrate)) {
     return false;
   }
   Piece lower = piece;
-  lower.cap = limit;
+  lower.cap = zone.limit;
   pending_.push_back(lower);
   return true;
 }
@@ -108,7 +103,7 @@ bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bo
   // Pieces are pushed last first, so that they are settled in path order.
   if (enters_fast && leaves_fast) {
     if (!is_reachable(a, in, limits_) || !is_reachable(out, b, limits_)) {
-      return lower_cap(piece, zone.limit);
+      return false;
     }
     pending_.push_back({out, b, index + 1, piece.last, piece.cap});
     if (!is_place) {
@@ -120,7 +115,7 @@ bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bo
   const Knot& knot = enters_fast ? in : out;
   const std::size_t border = enters_fast ? index : index + 1;
   if (!is_reachable(a, knot, limits_) || !is_reachable(knot, b, limits_)) {
-    return lower_cap(piece, zone.limit);
+    return false;
   }
   pending_.push_back({knot, b, border, piece.last, piece.cap});
   pending_.push_back({a, knot, piece.first, border, piece.cap});

@@ -22,8 +22,8 @@ namespace twin::feedrate {
 ///   1. Take one hump from start to end under the largest limit there.
 ///   2. Find, of all zones in which it is too fast, the one with the lowest limit.
 ///   3. Put a knot where the hump enters it too fast and where it leaves it too fast (or, if the
-///   hump is too
-///      fast only inside, lower the hump's cap), and do the same for the pieces.
+///      hump is too fast only inside, or a knot there cannot be reached from both ends with no
+///      acceleration, lower the hump's cap), and do the same for the pieces.
 /// Zones with low limits are settled first, and every new knot lowers the feedrate everywhere, so a
 /// zone that was kept stays kept; a hump is the fastest motion between its knots. The limits of the
 /// method: a falling or rising staircase of limits is taken one step at a time wherever the steps
@@ -50,7 +50,7 @@ class Envelope {
   };
 
   bool settle(const Piece& piece);
-  bool lower_cap(const Piece& piece, double limit);
+  /// @returns false, with nothing done, where a knot could not be reached
   bool split(const Piece& piece, std::size_t zone, bool enters_fast, bool leaves_fast);
 
   RampLimits limits_;

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include "tests/feedrate/motion_profile.hpp"
+#include "tests/feedrate/plan.hpp"
+#include "tests/feedrate/random_program.hpp"
+#include "tests/path/blocks.hpp"
+
+namespace twin::feedrate {
+namespace {
+
+using testing::expect_whole;
+using testing::plan;
+using testing::PlanSettings;
+using testing::random_program;
+
+TEST(LookAheadRandom, ProgramsArePlannedWholeWithoutFallbackWhateverTheWindow) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 400; ++i) {
+    const auto segments = path::testing::build(random_program(random, 25));
+    for (const int window : {2, 10, 200}) {
+      PlanSettings settings;
+      settings.look_ahead = window;
+      const auto planned = plan(segments, settings);
+      ASSERT_EQ(planned.segments.size(), segments.size());
+      ASSERT_NO_FATAL_FAILURE(expect_whole(planned, settings.limits))
+          << "program " << i << " window " << window;
+      EXPECT_EQ(planned.fallbacks, 0) << "program " << i << " window " << window;
+    }
+  }
+}
+
+TEST(LookAheadRandom, ProgramsArePlannedWholeAtAnyPeriod) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 200; ++i) {
+    const auto segments = path::testing::build(random_program(random, 25));
+    for (const double period : {0.125e-3, 0.5e-3, 4e-3}) {
+      PlanSettings settings;
+      settings.look_ahead = 20;
+      settings.period = period;
+      const auto planned = plan(segments, settings);
+      ASSERT_NO_FATAL_FAILURE(expect_whole(planned, settings.limits))
+          << "program " << i << " period " << period;
+      EXPECT_EQ(planned.fallbacks, 0) << "program " << i << " period " << period;
+    }
+  }
+}
+
+TEST(LookAheadRandom, ProgramsArePlannedWholeWithinOtherLimits) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const auto blocks = random_program(random, 25);
+    for (const auto& [acceleration, jerk] : {std::pair{300.0, 2e3}, {2e4, 1e6}, {500.0, 1e6}}) {
+      PlanSettings settings;
+      settings.limits.acceleration = acceleration;
+      settings.limits.jerk = jerk;
+      const auto planned = plan(blocks, settings);
+      ASSERT_NO_FATAL_FAILURE(expect_whole(planned, settings.limits))
+          << "program " << i << " a " << acceleration;
+      EXPECT_EQ(planned.fallbacks, 0) << "program " << i << " a " << acceleration;
+    }
+  }
+}
+
+TEST(LookAheadRandom, AnEndlessWindowIsNotSlowerThanAShortOne) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 200; ++i) {
+    const auto segments = path::testing::build(random_program(random, 25));
+    PlanSettings settings;
+    settings.look_ahead = 1000000;
+    const double whole = plan(segments, settings).time;
+    settings.look_ahead = 200;
+    const double usual = plan(segments, settings).time;
+    settings.look_ahead = 2;
+    const double shortest = plan(segments, settings).time;
+    EXPECT_LE(whole, usual * (1.0 + 1e-9)) << "program " << i;
+    EXPECT_LE(usual, shortest * (1.0 + 1e-9)) << "program " << i;
+  }
+}
+
+TEST(LookAheadRandom, NoPlanIsFasterThanAccelerationAloneAllows) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 200; ++i) {
+    const auto planned = plan(random_program(random, 25));
+    std::vector<LimitZone> zones;
+    double begin = 0.0;
+    double rests = 0.0;
+    for (const PlannedSegment& segment : planned.segments) {
+      for (const LimitZone& zone : segment.limits) {
+        zones.push_back({begin + zone.begin, begin + zone.end, zone.limit});
+      }
+      begin += segment.segment.length;
+      rests += segment.segment.dwell;
+    }
+    const double bound = testing::acceleration_bound(zones, 0.0, 0.0, Limits{}.acceleration, 3000);
+    EXPECT_GE(planned.time - rests, bound) << "program " << i;
+  }
+}
+
+}  // namespace
+}  // namespace twin::feedrate
