@@ -4,8 +4,10 @@
 #include <atomic>
 #include <csignal>
 #include <exception>
+#include <span>
 
 #include "cli/commands.hpp"
+#include "cli/usage.hpp"
 
 namespace {
 
@@ -93,7 +95,12 @@ int main(int argc, char** argv) try {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) {
+      return app.exit(error);  // --help, --version
+    }
+    const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
+    fmt::print(stderr, "twin: {}\n", usage_error(app, error, arguments.subspan(1)));
+    return 2;
   }
   watch_signals();
   if (run->parsed()) {

@@ -90,7 +90,8 @@ Status Interpolator::advance_brake(double dt) noexcept {
   for (double s = motion().s; s > current_->segment.length; s = motion().s) {
     const double length = current_->segment.length;
     if (!fetch()) {
-      return Status::kStarved;
+      is_done_ = source_.is_finished();  // rest falls on the path's end, beyond it by rounding
+      return is_done_ ? Status::kMoving : Status::kStarved;
     }
     phase_ = 0;
     for (feedrate::Phase& phase : brake_.phases) {

@@ -1,0 +1,76 @@
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/limits.hpp"
+#include "tests/cli/cli_fixture.hpp"
+#include "tests/runtime/trace_rows.hpp"
+#include "tests/trace/files.hpp"
+
+// Ctrl-C brakes on the path, stops the machine and keeps what was recorded.
+namespace twin::cli {
+namespace {
+
+class Interrupt : public test::CliTest, public ::testing::WithParamInterface<int> {
+ protected:
+  Interrupt() {
+    // A minute of straight line along X.
+    folder.put("long.nc", "G01 F600 X150\nX-150\nX150\n");
+  }
+
+  /// Waits until the file of the trace has grown beyond its header.
+  void wait_for_samples() const {
+    for (int i = 0; i < 3000; ++i) {
+      std::error_code missing;
+      if (std::filesystem::file_size(folder / "out/trace.partial.csv", missing) > 1000 &&
+          !missing) {
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ADD_FAILURE() << "no sample was written";
+  }
+};
+
+TEST_P(Interrupt, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
+  test::Child child({"run", "long.nc", "--out", "out", "--no-plots", "--quiet", "--realtime"},
+                    {folder.path(), {}});
+  wait_for_samples();
+  child.signal(GetParam());
+  const auto result = child.wait();
+  expect_refusal(result, 1, "interrupted: stopped on the path at t = ");
+  EXPECT_THAT(result.err, ::testing::HasSubstr("NC line 1"));
+  EXPECT_TRUE(exists("out/summary.partial.json"));
+  const test::TraceRows rows(folder / "out/trace.partial.csv");
+  ASSERT_GT(rows.rows(), 100U);
+  EXPECT_EQ(rows.last("feedrate_mm_per_s"), 0.0);
+  EXPECT_EQ(rows.last("y_cmd_mm"), 0.0);
+  EXPECT_LT(rows.last("x_cmd_mm"), 150.0);
+  test::expect_within_limits(rows.column("x_cmd_mm"), 0.001, Limits{}, 10.0);
+  const auto summary = nlohmann::json::parse(test::content(folder / "out/summary.partial.json"));
+  EXPECT_NEAR(summary["machining_time_s"].get<double>(), rows.last("t_s"), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) { return test.param == SIGINT ? "Int" : "Term"; });
+
+using InterruptTwice = Interrupt;
+
+TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
+  test::Child child(
+      {"run", "long.nc", "--out", "out", "--no-plots", "--realtime", "--set", "limits.jerk=10"},
+      {folder.path(), {}});  // so gentle that braking takes two seconds
+  wait_for_samples();
+  child.signal(GetParam());
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  child.signal(GetParam());
+  EXPECT_EQ(child.wait().status, 128 + GetParam());
+  EXPECT_FALSE(exists("out/trace.csv"));
+  EXPECT_TRUE(exists("out/trace.partial.csv"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptTwice, ::testing::Values(SIGINT));
+
+}  // namespace
+}  // namespace twin::cli

@@ -1,0 +1,168 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "tests/cli/cli_fixture.hpp"
+#include "tests/runtime/trace_rows.hpp"
+#include "tests/trace/files.hpp"
+
+// trace.csv and summary.json are read by other programs: names, order and units are an interface.
+namespace twin::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::content;
+
+class Results : public test::CliTest {
+ protected:
+  Json run(const std::string& command, const std::string& out,
+           const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{command, "ok.nc", "--out", out, "--no-plots", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = twin(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    return Json::parse(content(folder / (out + "/summary.json")));
+  }
+};
+
+/// The keys of an object and of the objects in it, as "a b{c d}".
+std::string keys(const Json& json) {
+  std::string text;
+  for (const auto& [key, value] : json.items()) {
+    text += text.empty() ? "" : " ";
+    text += key;
+    if (value.is_object()) {
+      text.append("{").append(keys(value)).append("}");
+    }
+  }
+  return text;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+const std::string kRunHeader =
+    "t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s,x_enc_mm,y_enc_mm,x_table_mm,"
+    "y_table_mm,x_drive_V,y_drive_V,contour_error_um,x_tracking_error_um,y_tracking_error_um";
+const std::string kPlanHeader = "t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s";
+
+const std::string kPlanKeys1 =
+    "program machine hal interpolator simulated period_s "
+    "blocks{total short length_mm{min mean max}} segments{total curves lines arcs} "
+    "compression_factor path_length_mm planned_time_s ";
+const std::string kAxis = "{velocity_mm_per_s acceleration_mm_per_s2 jerk_mm_per_s3}";
+const std::string kAudit =
+    "audit{feedrate_mm_per_s tangential_acceleration_mm_per_s2 tangential_jerk_mm_per_s3 "
+    "normal_acceleration_mm_per_s2 axis{x" +
+    kAxis + " y" + kAxis + " z" + kAxis + "}}";
+
+TEST_F(Results, OfARunHaveTheirNamesInOrder) {
+  const Json summary = run("run", "out");
+  EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kRunHeader);
+  EXPECT_EQ(keys(summary),
+            kPlanKeys1 +
+                "machining_time_s command_contour_error_um{max rms} contour_error_um{max rms} "
+                "table_contour_error_um{max rms} tracking_error_um{x{max rms} y{max rms}} " +
+                kAudit + " cycle_time_us{p50 p99 max} real_time_factor");
+  EXPECT_EQ(summary["program"], "ok.nc");
+  EXPECT_EQ(summary["machine"], "xy_table");
+  EXPECT_EQ(summary["hal"], "mujoco");
+  EXPECT_EQ(summary["simulated"], true);
+  EXPECT_EQ(summary["period_s"], 0.001);
+}
+
+TEST_F(Results, OfAPlanHaveTheSetPointsAlone) {
+  const Json summary = run("plan", "out");
+  EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kPlanHeader);
+  EXPECT_EQ(keys(summary), kPlanKeys1 + "command_contour_error_um{max rms} " + kAudit);
+}
+
+TEST_F(Results, TraceStartsAndEndsAtRestOnThePathsEnds) {
+  const Json summary = run("run", "out");
+  const test::TraceRows rows(folder / "out/trace.csv");
+  const auto t = rows.column("t_s");
+  ASSERT_GT(t.size(), 100U);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    ASSERT_NEAR(t[i], 0.001 * static_cast<double>(i), 1e-9);
+  }
+  EXPECT_EQ(rows.column("feedrate_mm_per_s").front(), 0.0);
+  EXPECT_EQ(rows.last("feedrate_mm_per_s"), 0.0);
+  EXPECT_NEAR(rows.last("x_cmd_mm"), 0.0, 1e-9);
+  EXPECT_NEAR(rows.last("y_cmd_mm"), 0.0, 1e-9);
+  EXPECT_EQ(rows.column("segment").front(), 0.0);
+  EXPECT_EQ(rows.last("segment"), summary["segments"]["total"].get<double>() - 1.0);
+  EXPECT_EQ(rows.column("line").front(), 1.0);
+  EXPECT_EQ(rows.last("line"), 3.0);
+  EXPECT_NEAR(t.back(), summary["machining_time_s"].get<double>(), 1e-9);
+}
+
+TEST_F(Results, SummaryIsThatOfTheTrace) {
+  const Json summary = run("run", "out");
+  const test::TraceRows rows(folder / "out/trace.csv");
+  const auto figures = [&](const std::string& column) {
+    double max = 0.0;
+    double squares = 0.0;
+    for (const double value : rows.column(column)) {
+      max = std::max(max, std::abs(value));
+      squares += value * value;
+    }
+    return std::pair(max, std::sqrt(squares / static_cast<double>(rows.rows())));
+  };
+  const auto expect_same = [&](const Json& error, const std::string& column) {
+    EXPECT_NEAR(error["max"].get<double>(), figures(column).first, 1e-6) << column;
+    EXPECT_NEAR(error["rms"].get<double>(), figures(column).second, 1e-6) << column;
+  };
+  expect_same(summary["contour_error_um"], "contour_error_um");
+  expect_same(summary["tracking_error_um"]["x"], "x_tracking_error_um");
+  expect_same(summary["tracking_error_um"]["y"], "y_tracking_error_um");
+  const auto command = rows.column("x_cmd_mm");
+  const auto encoder = rows.column("x_enc_mm");
+  const auto error = rows.column("x_tracking_error_um");
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    ASSERT_NEAR(error[i], 1000.0 * (command[i] - encoder[i]), 1e-9);
+  }
+}
+
+TEST_F(Results, TwoRunsLeaveTheSameBytesButForTheClock) {
+  Json first = run("run", "a");
+  Json second = run("run", "b");
+  EXPECT_EQ(content(folder / "a/trace.csv"), content(folder / "b/trace.csv"));
+  for (Json* summary : {&first, &second}) {
+    EXPECT_EQ(summary->erase("cycle_time_us"), 1U);
+    EXPECT_EQ(summary->erase("real_time_factor"), 1U);
+  }
+  EXPECT_EQ(first.dump(), second.dump());
+  run("plan", "c");
+  run("plan", "d");
+  EXPECT_EQ(content(folder / "c/trace.csv"), content(folder / "d/trace.csv"));
+  EXPECT_EQ(content(folder / "c/summary.json"), content(folder / "d/summary.json"));
+}
+
+TEST_F(Results, CommandOfARunIsThatOfThePlan) {
+  run("run", "out");
+  run("plan", "plan");
+  const test::TraceRows moved(folder / "out/trace.csv");
+  const test::TraceRows planned(folder / "plan/trace.csv");
+  EXPECT_EQ(moved.column("x_cmd_mm"), planned.column("x_cmd_mm"));
+  EXPECT_EQ(moved.column("y_cmd_mm"), planned.column("y_cmd_mm"));
+}
+
+TEST_F(Results, OptionsAreInForce) {
+  const Json slow = run("plan", "a", {"--feedrate-mm-per-min", "600"});
+  EXPECT_NEAR(slow["audit"]["feedrate_mm_per_s"].get<double>(), 10.0, 1e-6);
+  const Json long_period = run("run", "b", {"--set", "interpolator.period_ms=2", "--hal", "ideal"});
+  EXPECT_EQ(long_period["period_s"], 0.002);
+  EXPECT_EQ(long_period["hal"], "ideal");
+  EXPECT_EQ(long_period["tracking_error_um"]["x"]["max"], 0.0);
+}
+
+TEST_F(Results, FileThatIsNotWantedAnyMoreGoes) {
+  run("run", "out");
+  folder.put("out/trace.partial.csv", "left behind\n");
+  run("run", "out");
+  EXPECT_FALSE(exists("out/trace.partial.csv"));
+  EXPECT_TRUE(exists("out/trace.csv"));
+}
+
+}  // namespace
+}  // namespace twin::cli

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/cli/child.hpp"
+#include "tests/closed_loop/loop_fixture.hpp"
+
+// What cutting a path into many blocks must not cost: time on the machine, and memory.
+namespace twin {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kHasSanitizer = true;
+#else
+constexpr bool kHasSanitizer = false;
+#endif
+
+class ManyBlocks : public test::LoopTest {
+ protected:
+  /// A straight line from the origin in some equal pieces, with the decimals CAM writes.
+  std::filesystem::path line(double x, double y, int pieces) const {
+    std::string text = "G01 F3000\n";
+    for (int i = 1; i <= pieces; ++i) {
+      text += fmt::format("X{:.4f} Y{:.4f}\n", x * i / pieces, y * i / pieces);
+    }
+    return folder.put(fmt::format("line{}.nc", pieces), text);
+  }
+
+  /// Round and round a circle of 60 mm, in blocks of 0.1 mm.
+  std::filesystem::path circle(int blocks) const {
+    const auto file = folder / fmt::format("circle{}.nc", blocks);
+    std::ofstream out(file);
+    out << "G01 F12000\n";
+    for (int i = 1; i <= blocks; ++i) {
+      const double angle = 0.1 * i / 60.0;
+      out << fmt::format("X{:.4f} Y{:.4f}\n", 60.0 * std::sin(angle),
+                         60.0 - 60.0 * std::cos(angle));
+    }
+    return file;
+  }
+
+  double peak_memory(int blocks) const {
+    const auto result =
+        test::run_twin({"plan", circle(blocks).string(), "--out", "out", "--quiet", "--no-plots"},
+                       {folder.path(), {}});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.peak_memory;
+  }
+};
+
+TEST_F(ManyBlocks, LineIn2000PiecesTakesAsLongAsUncut) {
+  const config::MachineFile file = machine();
+  const double uncut = plan(line(60.0, 80.0, 1)).planned_time;
+  EXPECT_NEAR(uncut, 100.0 / 50.0 + 2.0 * std::sqrt(50.0 / file.limits.jerk), 1e-9);
+  for (const char* interpolator : {"nurbs", "linear"}) {
+    const double cut =
+        execute(line(60.0, 80.0, 2000), file, nullptr, std::nullopt, interpolator).planned_time;
+    EXPECT_NEAR(cut, uncut, file.period) << interpolator;
+  }
+}
+
+TEST_F(ManyBlocks, LineInPiecesWithRoundedDecimalsTakesAsLongAsUncut) {
+  const double uncut = plan(line(37.0, 91.0, 1)).planned_time;
+  EXPECT_NEAR(plan(line(37.0, 91.0, 1999)).planned_time, uncut, machine().period);
+}
+
+TEST_F(ManyBlocks, MillionShortBlocksNeedLessThan200MB) {
+  if (kHasSanitizer) {
+    GTEST_SKIP() << "a sanitizer's own memory counts too";
+  }
+  EXPECT_LT(peak_memory(1000000), 200.0);
+}
+
+TEST_F(ManyBlocks, MemoryDoesNotDependOnTheProgramsLength) {
+  if (kHasSanitizer) {
+    GTEST_SKIP() << "a sanitizer's own memory counts too";
+  }
+  EXPECT_LT(peak_memory(200000), peak_memory(20000) + 5.0);
+}
+
+}  // namespace
+}  // namespace twin

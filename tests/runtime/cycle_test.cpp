@@ -1,0 +1,127 @@
+#include "runtime/cycle.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hal/ideal/ideal_machine.hpp"
+#include "runtime/segment_queue.hpp"
+#include "tests/hal/count_new.hpp"
+#include "tests/runtime/fake_machine.hpp"
+#include "tests/runtime/planned.hpp"
+
+namespace twin::runtime {
+namespace {
+
+constexpr double kPeriod = 1e-3;  // [s]
+constexpr char kProgram[] =
+    "G01 X5 F3000\nG03 X10 Y5 R5\nG01 Y10.2\nY10.4\nX9.9 Y10.6\nX9.7 Y10.7\nX9.4 Y10.8\nX0\nY0\n";
+
+/// A cycle over the segments of kProgram.
+class CycleTest : public ::testing::Test {
+ protected:
+  CycleTest() {
+    for (feedrate::PlannedSegment& segment : test::plan_text(kProgram)) {
+      segments.push(std::move(segment));
+    }
+    segments.close();
+  }
+
+  SegmentQueue segments{100};
+  interpolator::Interpolator interpolator{segments, kPeriod};
+  std::array<servo::Gains, hal::kServoAxes> gains{};
+  trace::Sample sample;
+};
+
+TEST_F(CycleTest, AllocatesNothing) {
+  hal::IdealMachine machine;
+  ASSERT_TRUE(machine.configure(kPeriod));
+  ASSERT_TRUE(machine.activate());
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  const std::int64_t before = hal::testing::allocations();
+  bool is_fine = cycle.hold() == hal::Status::kOk;
+  int periods = 0;
+  while (cycle.prepare() == interpolator::Status::kMoving) {
+    is_fine = is_fine && cycle.exchange(sample) == hal::Status::kOk;
+    ++periods;
+  }
+  is_fine = is_fine && cycle.hold() == hal::Status::kOk;
+  EXPECT_EQ(hal::testing::allocations(), before);
+  EXPECT_TRUE(is_fine);
+  EXPECT_GT(periods, 500);
+}
+
+TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
+  hal::IdealMachine machine;
+  ASSERT_TRUE(machine.configure(kPeriod));
+  ASSERT_TRUE(machine.activate());
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  std::int64_t periods = 0;
+  while (cycle.prepare() == interpolator::Status::kMoving) {
+    ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
+    ASSERT_EQ(sample.encoder, sample.command.head<2>());
+    ASSERT_EQ(sample.table, sample.command.head<2>());
+    ASSERT_NEAR(sample.t, static_cast<double>(periods++) * kPeriod, 1e-12);
+  }
+  EXPECT_LT(sample.command.norm(), 1e-9);
+}
+
+TEST_F(CycleTest, WithoutAMachineOnlyTheCommandIsRecorded) {
+  Cycle cycle(interpolator, nullptr, gains, kPeriod);
+  ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+  ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
+  EXPECT_EQ(sample.t, 0.0);
+  EXPECT_EQ(sample.command, Vec3(0.0, 0.0, 0.0));
+  EXPECT_EQ(sample.feedrate, 0.0);
+  EXPECT_EQ(sample.line, 1);
+}
+
+TEST_F(CycleTest, VoltsAreTheFeedforwardOfTheIdealMachinesSpeed) {
+  gains[hal::kX].kf = 1.0;
+  test::FakeMachine machine;  // reads zero counts; 100 mm/s per volt
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+    ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
+  }
+  ASSERT_EQ(sample.feedrate, 50.0);
+  const double position_part = gains[hal::kX].kp * sample.command.x() / 100.0;
+  EXPECT_NEAR(sample.volts.x() - position_part, 0.5, 1e-9);
+}
+
+TEST_F(CycleTest, HoldStaysOnThePlaceAndTakesNoTime) {
+  test::FakeMachine machine;
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+    ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
+  }
+  const trace::Sample before = sample;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(cycle.hold(), hal::Status::kOk);
+    EXPECT_EQ(machine.references.back(), before.command);
+  }
+  ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+  ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
+  EXPECT_NEAR(sample.t - before.t, kPeriod, 1e-12);
+}
+
+TEST_F(CycleTest, SaysSoWhenTheMachineCannotBeRead) {
+  test::FakeMachine machine;
+  machine.read_that_fails = 2;
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  cycle.prepare();
+  EXPECT_EQ(cycle.exchange(sample), hal::Status::kOk);
+  EXPECT_EQ(cycle.exchange(sample), hal::Status::kError);
+  EXPECT_EQ(cycle.hold(), hal::Status::kError);
+  EXPECT_EQ(machine.writes, 1);
+}
+
+TEST_F(CycleTest, SaysSoWhenTheMachineCannotBeWritten) {
+  test::FakeMachine machine;
+  machine.write_that_fails = 1;
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  cycle.prepare();
+  EXPECT_EQ(cycle.exchange(sample), hal::Status::kError);
+}
+
+}  // namespace
+}  // namespace twin::runtime
