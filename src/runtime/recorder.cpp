@@ -34,7 +34,10 @@ Recorder::Recorder(const Options& options, gcode::Reader&& reader, trace::CsvWri
 
 /// Reads on until no further block can change what the trackers say of this block.
 Expected<void> Recorder::read_ahead(std::int64_t block) {
-  while (!program_ended_ && !(in_space_.is_ready(block) && along_z_.is_ready(block))) {
+  const auto is_ready = [&] {
+    return in_space_.is_ready(block) && (!options_.has_machine || along_z_.is_ready(block));
+  };
+  while (!program_ended_ && !is_ready()) {
     auto next = reader_.next();
     if (!next) {
       return tl::unexpected(next.error());
