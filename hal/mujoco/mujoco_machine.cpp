@@ -28,7 +28,7 @@ Expected<void> MujocoMachine::configure(double period) {
     return fail(ErrorCode::kMachine, "the table is active; deactivate it before configure");
   }
   cleanup();
-  if (Expected<void> valid = validate(params_, period); !valid) {
+  if (Expected<void> valid = validate(params_); !valid) {
     return valid;
   }
   steps_ = steps_per_period(period, params_.physics_step);

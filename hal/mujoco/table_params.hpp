@@ -99,7 +99,7 @@ inline AxisParams default_y_axis() {
 struct TableParams {
   std::string model =
       "mjcf/xy_table.xml";         ///< MJCF file; xy_table_compliant.xml for screws that give
-  double physics_step = 1e-4;      ///< must divide the interpolation period [s]
+  double physics_step = 1e-4;      ///< at most; a whole number of steps makes a period [s]
   double pen_bandwidth_Hz = 20.0;  ///< of the Z slide that follows its reference [Hz]
   std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -123,15 +124,10 @@ std::vector<Setting> axis_settings(AxisParams& params) {
 }
 
 int steps_per_period(double period, double physics_step) noexcept {
-  const double steps = period / physics_step;
-  const double whole = std::round(steps);
-  if (!(whole >= 1.0) || whole > 1e6 || std::abs(steps - whole) > kWholeTolerance * whole) {
-    return 0;
-  }
-  return static_cast<int>(whole);
+  return std::max(static_cast<int>(std::ceil(period / physics_step * (1.0 - kWholeTolerance))), 1);
 }
 
-Expected<void> validate(const TableParams& params, double period) {
+Expected<void> validate(const TableParams& params) {
   TableParams copy = params;
   if (Expected<void> result = check("table", table_settings(copy)); !result) {
     return result;
@@ -141,13 +137,6 @@ Expected<void> validate(const TableParams& params, double period) {
   }
   if (Expected<void> result = check_axis("table.y", copy.axis[kY], copy.physics_step); !result) {
     return result;
-  }
-  if (steps_per_period(period, params.physics_step) == 0) {
-    return fail(
-        ErrorCode::kMachine,
-        fmt::format(
-            "table.physics_step_ms = {:g} does not divide the interpolation period of {:g} ms",
-            params.physics_step / kMilli, period / kMilli));
   }
   return {};
 }

@@ -28,11 +28,10 @@ std::vector<Setting> axis_settings(AxisParams& params);
 inline constexpr int kMinDacBits = 2;
 inline constexpr int kMaxDacBits = 48;
 
-/// Checks every number against its range and the physics step against the period.
-/// @param period interpolation period [s]  @returns kMachine error naming key, value and range
-Expected<void> validate(const TableParams& params, double period);
+/// Checks every number against its range. @returns kMachine error naming key, value and range
+Expected<void> validate(const TableParams& params);
 
-/// Physics steps in a period; 0 if the step does not divide it.
+/// Physics steps in a period: the fewest that are no longer than the physics step asked for.
 int steps_per_period(double period, double physics_step) noexcept;
 
 }  // namespace twin::hal

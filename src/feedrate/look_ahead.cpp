@@ -1,23 +1,15 @@
 #include "feedrate/look_ahead.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "feedrate/corner_limit.hpp"
 #include "feedrate/segment_limits.hpp"
 
 namespace twin::feedrate {
 namespace {
 
 constexpr double kPlaceRounding = 1e-9;  // [mm]
-constexpr double kStraight = 1e-7;       // turn that is none [rad]
-
-double turn_between(const Vec3& before, const Vec3& after) {
-  return std::atan2(before.cross(after).norm(), before.dot(after));
-}
 
 }  // namespace
 
@@ -29,11 +21,12 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, int look_
       period_(period),
       sink_(std::move(sink)),
       ramp_{limits.acceleration, limits.jerk},
-      envelope_(ramp_) {}
+      envelope_(ramp_),
+      junctions_(limits, model, period) {}
 
 void LookAhead::push(path::Segment&& segment) {
   if (!window_.empty()) {
-    append_junction(window_.back(), segment);
+    junctions_.append(window_.back(), segment, length_, zones_);
   }
   append_segment_limits(segment, length_, model_, limits_, zones_);
   length_ += segment.length;
@@ -47,66 +40,6 @@ void LookAhead::finish() {
   if (!window_.empty()) {
     plan(true);
   }
-}
-
-void LookAhead::append_junction(const path::Segment& before, const path::Segment& after) {
-  if (before.stops_at_end || after.length == 0.0) {
-    zones_.push_back({length_, length_, 0.0});
-    turns_.clear();
-    return;
-  }
-  const double turn = turn_between(before.end.tangent, after.begin.tangent);
-  if (turn < kStraight) {
-    return;
-  }
-  const double reach = limits_.feedrate * period_;
-  const double curvature =
-      std::max(curvature_near_end(before, true, reach), curvature_near_end(after, false, reach));
-  const double corner_error = std::min(before.corner_error, after.corner_error);
-  double limit =
-      std::min(corner_model_feedrate(turn, corner_error, model_),
-               corner_acceleration_feedrate(turn, curvature, limits_.acceleration, period_));
-  if (turn < kSharpTurn && curvature > 0.0) {
-    limit = std::min(limit, std::max(kHidingShare * turn / (curvature * period_),
-                                     corner_ripple_feedrate(turn, limits_.jerk, period_)));
-  }
-  zones_.push_back({length_, length_, limit});
-  limit_cluster(turn, length_);
-}
-
-/// Corners a few periods apart limit each other. Where the turns of several corners, over the
-/// distance l from the first to the last, sum to phi, the feedrate either keeps them apart (v T <=
-/// l) or obeys the corner rule for phi. And where one hides the other from the set points, it
-/// either puts kHidingPeriods between them or keeps the ripple small.
-void LookAhead::limit_cluster(double turn, double s) {
-  LimitZone& latest = zones_.back();
-  const auto lower = [](LimitZone& zone, double limit) {
-    zone.limit = std::min(zone.limit, limit);
-  };
-  double sum = turn;
-  for (auto old = turns_.rbegin(); old != turns_.rend(); ++old) {
-    const double apart = (s - old->s) / period_;
-    if (apart >= kHidingPeriods * latest.limit) {
-      break;
-    }
-    sum += old->angle;
-    LimitZone& zone = zones_[old->zone];
-    const double together = corner_acceleration_feedrate(std::min(sum, std::numbers::pi), 0.0,
-                                                         limits_.acceleration, period_);
-    lower(latest, std::max(apart, together));
-    lower(zone, std::max(apart, together));
-    const auto limit_hidden = [&](double hidden, double hiding, LimitZone& place) {
-      if (hidden < kSharpTurn && hiding > kHidingShare * hidden) {
-        lower(place, std::max(apart / kHidingPeriods,
-                              corner_ripple_feedrate(hidden, limits_.jerk, period_)));
-      }
-    };
-    limit_hidden(turn, old->angle, latest);
-    limit_hidden(old->angle, turn, zone);
-  }
-  const double forget = s - kHidingPeriods * limits_.feedrate * period_;
-  std::erase_if(turns_, [&](const Turn& old) { return old.s < forget; });
-  turns_.push_back({s, turn, zones_.size() - 1});
 }
 
 void LookAhead::plan(bool is_last) {
@@ -245,11 +178,7 @@ void LookAhead::forget(double begin, std::size_t phases, std::size_t zones) {
     zone.begin -= begin;
     zone.end -= begin;
   }
-  std::erase_if(turns_, [&](const Turn& turn) { return turn.zone < zones; });
-  for (Turn& turn : turns_) {
-    turn.s -= begin;
-    turn.zone -= zones;
-  }
+  junctions_.forget(begin, zones);
   for (Hump& hump : plan_) {
     hump.a.s -= begin;
     hump.b.s -= begin;

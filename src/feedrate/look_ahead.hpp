@@ -7,6 +7,7 @@
 
 #include "core/limits.hpp"
 #include "feedrate/envelope.hpp"
+#include "feedrate/junction_limits.hpp"
 #include "feedrate/planned_segment.hpp"
 
 namespace twin::feedrate {
@@ -41,8 +42,6 @@ class LookAhead {
   std::int64_t fallbacks() const noexcept { return fallbacks_; }
 
  private:
-  void append_junction(const path::Segment& before, const path::Segment& after);
-  void limit_cluster(double turn, double s);
   void plan(bool is_last);
   bool plan_window();
   Knot commit_knot(bool is_last) const;
@@ -51,12 +50,6 @@ class LookAhead {
   void take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
   void forget(double begin, std::size_t phases, std::size_t zones);
 
-  struct Turn {
-    double s;      // place of the corner [mm]
-    double angle;  // [rad]
-    std::size_t zone;
-  };
-
   Limits limits_;
   PlanningModel model_;
   std::size_t look_ahead_;
@@ -64,10 +57,10 @@ class LookAhead {
   Sink sink_;
   RampLimits ramp_;
   Envelope envelope_;
+  JunctionLimits junctions_;
 
   std::deque<path::Segment> window_;  // not yet handed on; window_[0] begins at s = 0
   std::vector<LimitZone> zones_;      // of the window
-  std::vector<Turn> turns_;           // corners near the window's end
   std::vector<Hump> plan_;            // last feasible plan from start_ to rest
   std::vector<Phase> phases_;         // settled and not yet handed on
   Knot start_;                        // where the next plan starts
