@@ -33,9 +33,9 @@ TEST_F(BadOutput, FolderIsWriteProtected) {
 }
 
 TEST_F(BadOutput, DiskIsFull) {
-  const auto result = test::run_twin({"run", "ok.nc", "--out", "out", "--no-plots", "--quiet"},
-                                     {folder.path(), 2000});
-  expect_refusal(result, 1, "out/trace.csv: cannot write: ");
+  std::filesystem::create_directories(folder / "out");
+  std::filesystem::create_symlink("/dev/full", folder / "out/trace.partial.csv");
+  expect_refusal(run_into("out"), 1, "out/trace.csv: cannot write: No space left on device");
 }
 
 TEST_F(BadOutput, SummaryCannotBeWritten) {
@@ -57,8 +57,8 @@ TEST_F(BadOutput, DiskFillsUpWhileTheMachineMoves) {
 TEST_F(BadOutput, OlderResultsStayWholeWhenARunFails) {
   ASSERT_EQ(run_into("out").status, 0);
   const auto before = std::filesystem::file_size(folder / "out/trace.csv");
-  const auto result = test::run_twin({"run", "ok.nc", "--out", "out", "--no-plots", "--quiet"},
-                                     {folder.path(), 1000});
+  std::filesystem::create_directory(folder / "out/trace.partial.csv");
+  const auto result = run_into("out");
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(std::filesystem::file_size(folder / "out/trace.csv"), before);
 }
