@@ -16,6 +16,7 @@ namespace twin::runtime {
 namespace {
 
 constexpr std::size_t kSampleBuffer = 16384;
+constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
 
 /// Configures and activates a machine; whatever happens, it is left with 0 V and servo off.
 class ActiveMachine {
@@ -117,7 +118,7 @@ void Run::record() {
   for (;;) {
     const bool has_ended = has_ended_.load(std::memory_order_acquire);
     bool is_empty = true;
-    while (samples_.pop(sample)) {
+    for (int i = 0; i < kSamplesATurn && samples_.pop(sample); ++i) {
       is_empty = false;
       if (record_error_) {
         continue;

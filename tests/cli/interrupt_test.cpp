@@ -55,6 +55,24 @@ TEST_P(Interrupt, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& test) { return test.param == SIGINT ? "Int" : "Term"; });
 
+class InterruptInSimulatedTime : public Interrupt {};
+
+TEST_P(InterruptInSimulatedTime, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
+  folder.put("slow.nc", "G01 F30 X150\nX-150\nX150\n");  // half an hour
+  test::Child child(
+      {GetParam() == SIGINT ? "run" : "plan", "slow.nc", "--out", "out", "--no-plots", "--quiet"},
+      {folder.path(), {}});
+  wait_for_samples();
+  child.signal(GetParam());
+  expect_refusal(child.wait(), 1, "interrupted: stopped on the path at t = ");
+  const test::TraceRows rows(folder / "out/trace.partial.csv");
+  EXPECT_EQ(rows.last("feedrate_mm_per_s"), 0.0);
+  test::expect_within_limits(rows.column("x_cmd_mm"), 0.001, Limits{}, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptInSimulatedTime, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) { return test.param == SIGINT ? "Int" : "Term"; });
+
 using InterruptTwice = Interrupt;
 
 TEST_P(InterruptTwice, SecondOneEndsTheProcess) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <ostream>
 
 #include "metrics/limit_audit.hpp"
 #include "tests/closed_loop/loop_fixture.hpp"
@@ -19,6 +20,10 @@ struct Case {
   double period;  // [s]
   double doubt = kDoubt;
 };
+
+void PrintTo(const Case& tested, std::ostream* out) {
+  *out << tested.program << ", " << tested.interpolator << ", " << 1e3 * tested.period << " ms";
+}
 
 class ProgramLimits : public test::LoopTest, public ::testing::WithParamInterface<Case> {};
 

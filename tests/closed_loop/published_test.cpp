@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <ostream>
+
 #include "core/units.hpp"
 #include "tests/closed_loop/loop_fixture.hpp"
 
@@ -22,6 +25,8 @@ const std::array<Published, 2> kPublished{{
     {"oxalis.nc", 1006, "0.091", "0.262", "0.580", 18.98, 3.66, 0.66, {18.715, 9.509, 6.624}},
     {"dolphin.nc", 1221, "0.106", "0.329", "0.743", 18.78, 6.84, 0.65, {27.416, 13.880, 9.592}},
 }};
+
+void PrintTo(const Published& paper, std::ostream* out) { *out << paper.program; }
 
 class PublishedFigures : public test::LoopTest, public ::testing::WithParamInterface<Published> {
  protected:
