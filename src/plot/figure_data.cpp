@@ -161,14 +161,14 @@ class Stream {
         return tl::unexpected(std::move(saved.error()));
       }
     }
-    summary_.extent = std::max(high_.x() - low_.x(), high_.y() - low_.y());
+    summary_.extent = high_ - low_;
     summary_.has_pen_up = lifted_ && lowered_;
     return summary_;
   }
 
  private:
   void advance(const Record& newest) {
-    const auto motion = motion_->push({newest[kX], newest[kY], newest[kZ]});
+    const auto motion = motion_->push({newest[kX], newest[kY], newest[kZ]}, newest[kFeedrate]);
     if (!motion) {
       return;
     }

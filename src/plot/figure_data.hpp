@@ -10,7 +10,7 @@ namespace twin::plot {
 
 /// What the scripts must know of the data before they can be written.
 struct DataSummary {
-  double extent = 0.0;            ///< longer side of the path's bounding box [mm]
+  Vec2 extent = Vec2::Zero();     ///< width and height of the path [mm]
   double largest_error_um = 0.0;  ///< largest error square to the path, pen down [um]
   bool has_limit = false;         ///< feedrate_limit.csv is there
   bool has_pen_up = false;        ///< the pen is lifted at some set points

@@ -8,7 +8,7 @@ namespace twin::plot {
 namespace {
 
 constexpr double kStill = 1e-12;    // [mm] below this a step has no direction
-constexpr double kSharp = 0.7;      // [rad] in one period: a corner, not a curve
+constexpr double kCorner = 0.1;     // [rad] a lone turn of this size is a corner
 constexpr double kStepTime = 1e-3;  // [s] that h periods should take
 
 /// Curvature vector of the circle through three points [1/mm]; zero where there is no circle.
@@ -36,8 +36,13 @@ PathMotion::PathMotion(double period)
 double PathMotion::arc_of_middle_period() const {
   const auto& p = points_;
   const double chord = (p[3] - p[2]).norm();
-  if (chord < kStill || std::max(turn(p[1], p[2], p[3]), turn(p[2], p[3], p[4])) > kSharp) {
+  if (chord < kStill) {
     return chord;
+  }
+  const double lone = turn(p[1], p[2], p[3]) + turn(p[2], p[3], p[4]) -
+                      2.0 * (turn(p[0], p[1], p[2]) + turn(p[3], p[4], p[5]));
+  if (lone > kCorner) {
+    return std::max(chord, (feedrates_[2] + feedrates_[3]) / 2.0 * period_);
   }
   const Vec3 mean = (71.0 * (curvature(p[1], p[2], p[3]) + curvature(p[2], p[3], p[4])) -
                      11.0 * (curvature(p[0], p[1], p[2]) + curvature(p[3], p[4], p[5]))) /
@@ -53,12 +58,15 @@ double PathMotion::s(std::ptrdiff_t offset) const noexcept {
   return arcs_[static_cast<std::size_t>((newest - size / 2 + offset + 4 * size) % size)];
 }
 
-std::optional<TangentialMotion> PathMotion::push(const Vec3& point) {
+std::optional<TangentialMotion> PathMotion::push(const Vec3& point, double feedrate) {
   if (count_ == 0) {
     points_.fill(point);
+    feedrates_.fill(feedrate);
   }
   std::rotate(points_.begin(), points_.begin() + 1, points_.end());
   points_.back() = point;
+  std::rotate(feedrates_.begin(), feedrates_.begin() + 1, feedrates_.end());
+  feedrates_.back() = feedrate;
   const std::size_t size = arcs_.size();
   const double before = arcs_[count_ % size];
   ++count_;

@@ -26,8 +26,9 @@ struct TangentialMotion {
 /// sin(x/2), x = kappa c the angle by which the path turns in it, and kappa from the circles
 /// through three successive points, weighted
 /// (-11 71 71 -11) / 120 over the four points around the period; chords alone would show a false
-/// jerk wherever the curvature changes. A turn above 0.7 rad is a corner, and its chord is taken as
-/// it is. Before the first and after the last set point the machine is at rest.
+/// jerk wherever the curvature changes. Where a lone turn of more than 0.1 rad shows a corner, the
+/// chord cuts it by an unknown length, and the mean feedrate of the two set points times T stands
+/// for the arc. Before the first and after the last set point the machine is at rest.
 class PathMotion {
  public:
   /// @param period  interpolation period T [s]
@@ -36,19 +37,23 @@ class PathMotion {
   /// Periods by which the answer lags behind the input.
   std::size_t delay() const noexcept { return 3 * step_ + 2; }
 
-  /// Takes the next set point [mm]; the motion at the one delay() earlier, or nothing when there is
-  /// none yet.
-  std::optional<TangentialMotion> push(const Vec3& point);
+  /// Takes the next set point.
+  ///
+  /// @param point     [mm]
+  /// @param feedrate  of the set point [mm/s], used at corners alone
+  /// @returns the motion at the set point delay() earlier, or nothing when there is none yet
+  std::optional<TangentialMotion> push(const Vec3& point, double feedrate);
 
  private:
   double arc_of_middle_period() const;
   double s(std::ptrdiff_t offset) const noexcept;
 
   double period_;
-  std::size_t step_;              // h
-  std::size_t count_ = 0;         // points so far
-  std::array<Vec3, 6> points_{};  // the last six
-  std::vector<double> arcs_;      // ring of arc lengths s (6 h + 1)
+  std::size_t step_;                   // h
+  std::size_t count_ = 0;              // points so far
+  std::array<Vec3, 6> points_{};       // the last six
+  std::array<double, 6> feedrates_{};  // of these
+  std::vector<double> arcs_;           // ring of arc lengths s (6 h + 1)
 };
 
 }  // namespace twin::plot

@@ -31,46 +31,66 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+constexpr int kWidth = 1200;  // of the PNG [pixels]; the SVG is smaller by kSvgScale
+constexpr int kHeight = 900;
+constexpr double kSvgScale = 2.0 / 3.0;
+
+/// Height of a picture [pixels] at which a path of this shape leaves no empty strip.
+int path_height(const Vec2& extent) {
+  constexpr double kAxes = 1000.0;   // width of the plot [pixels]
+  constexpr double kBorder = 250.0;  // title, legend and labels [pixels]
+  constexpr double kLeast = 600.0;
+  const double wanted = kBorder + kAxes * 1.12 * extent.y() / std::max(extent.x(), 1e-6);
+  return static_cast<int>(std::clamp(wanted, kLeast, static_cast<double>(kHeight)));
+}
+
+/// A place counted from the upper edge, as a part of the picture's height.
+double from_top(int pixels, int height) { return 1.0 - static_cast<double>(pixels) / height; }
+
 /// A whole script: the same page for both formats, then what the figure adds.
-Script script(const std::string& name, const std::string& settings, const std::string& drawing) {
+Script script(const std::string& name, const std::string& settings, const std::string& drawing,
+              int height = kHeight) {
   std::string text = fmt::format(
       "# Draws {0}.png and {0}.svg from the data beside it: gnuplot {0}.gp\n"
       "set datafile separator ','\n"
       "set encoding utf8\n"
       "set border 3 linecolor rgb '#404040'\n"
       "set tics nomirror out\n"
+      "set autoscale xfix\n"
       "set grid linecolor rgb '#E0E0E0' linetype 1 linewidth 0.5\n"
       "set style line 1 linecolor rgb '{1}' linewidth 1.5\n"
       "set style line 2 linecolor rgb '{2}' linewidth 1.5\n"
       "set style line 3 linecolor rgb '{3}' linewidth 1.5\n"
       "set style line 4 linecolor rgb '{4}' linewidth 4\n"
+      "set style line 6 linecolor rgb '#E69F00' linewidth 3.5\n"
       "set style line 5 linecolor rgb '{4}' linewidth 1 dashtype 3\n"
-      "set key at screen 0.5, screen 0.905 center center horizontal Left reverse samplen 2 width "
+      "set key at screen 0.5, screen {5:.4f} center center horizontal Left reverse samplen 2 width "
       "2\n"
-      "set tmargin at screen 0.865\n",
-      name, kBlue, kVermilion, kGreen, kGrey);
+      "set tmargin at screen {6:.4f}\n",
+      name, kBlue, kVermilion, kGreen, kGrey, from_top(86, height), from_top(122, height));
   text += settings;
   text += fmt::format(
       "has_cairo = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0\n"
       "do for [kind in 'png svg'] {{\n"
       "  if (kind eq 'svg') {{\n"
-      "    set terminal svg size 800,600 font 'DejaVu Sans,15' background '#FFFFFF'\n"
+      "    set terminal svg size {1},{2} font 'DejaVu Sans,15' background '#FFFFFF'\n"
       "  }} else {{ if (has_cairo) {{\n"
-      "    set terminal pngcairo size 1200,900 font 'DejaVu Sans,21' linewidth 1.6\n"
+      "    set terminal pngcairo size {3},{4} font 'DejaVu Sans,21' linewidth 1.6\n"
       "  }} else {{\n"
-      "    set terminal png truecolor size 1200,900 font 'DejaVu Sans,21' linewidth 2\n"
+      "    set terminal png truecolor size {3},{4} font 'DejaVu Sans,21' linewidth 2\n"
       "  }} }}\n"
-      "  set output '{}.'.kind\n",
-      name);
+      "  set output '{0}.'.kind\n",
+      name, std::lround(kWidth * kSvgScale), std::lround(height * kSvgScale), kWidth, height);
   text += drawing;
   text += "  unset output\n}\n";
   return {name, text};
 }
 
-std::string set_title(const std::string& title) {
+std::string set_title(const std::string& title, int height = kHeight) {
   return title.empty()
              ? ""
-             : "set label 1 " + quoted(title) + " at screen 0.5, screen 0.96 center noenhanced\n";
+             : fmt::format("set label 1 {} at screen 0.5, screen {:.4f} center noenhanced\n",
+                           quoted(title), from_top(36, height));
 }
 
 /// Two panels under one title, over the same time, which is labelled once.
@@ -121,19 +141,20 @@ std::string pen_functions(const DataSummary& data) {
 }
 
 Script magnified_script(const std::string& title, const DataSummary& data) {
-  const double n = magnification(data.extent, data.largest_error_um);
-  std::string settings = set_title(title) + std::string(kPathAxes) + pen_functions(data);
+  const int height = path_height(data.extent);
+  const double n = magnification(data.extent.maxCoeff(), data.largest_error_um);
+  std::string settings = set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
   settings += fmt::format("magnification = {}\n", n);
   settings +=
       "moved(x, error) = x + magnification * error / 1000.0\n"
-      "key = sprintf('error × %g', magnification)\n";
-  const std::string drawing = fmt::format(
-      "  plot {}'contour_magnified.csv' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines "
-      "linestyle 1 title 'command', \\\n"
-      "    '' using (down(moved(column('x_cmd_mm'), column('x_error_um')))):"
-      "(moved(column('y_cmd_mm'), column('y_error_um'))) with lines linestyle 2 title key\n",
-      background(data));
-  return script("contour_magnified", settings, drawing);
+      "key = sprintf('measured, error × %g', magnification)\n";
+  const std::string drawing =
+      "  plot 'contour_magnified.csv' using (down(moved(column('x_cmd_mm'), "
+      "column('x_error_um')))):"
+      "(moved(column('y_cmd_mm'), column('y_error_um'))) with lines linestyle 2 linewidth 0.6 "
+      "title key, \\\n"
+      "    '' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines linestyle 1 title 'command'\n";
+  return script("contour_magnified", settings, drawing, height);
 }
 
 Script feedrate_script(const std::string& title, const DataSummary& data) {
@@ -145,8 +166,8 @@ Script feedrate_script(const std::string& title, const DataSummary& data) {
   std::string drawing = "  plot ";
   if (data.has_limit) {
     drawing +=
-        "'feedrate_limit.csv' using 't_s':'feedrate_limit_mm_per_s' with lines linestyle 2 "
-        "linewidth 1 title 'limit', \\\n    ";
+        "'feedrate_limit.csv' using 't_s':'feedrate_limit_mm_per_s' with lines linestyle 6 "
+        "title 'limit', \\\n    ";
   }
   drawing +=
       "'feedrate.csv' using 't_s':'feedrate_mm_per_s' with lines linestyle 1 title "
@@ -191,7 +212,9 @@ Script tracking_script(const std::string& title) {
 }
 
 Script contour_script(const std::string& title, const DataSummary& data, bool plan_only) {
-  const std::string settings = set_title(title) + std::string(kPathAxes) + pen_functions(data);
+  const int height = path_height(data.extent);
+  const std::string settings =
+      set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
   std::string drawing = "  plot " + background(data) +
                         "'contour.csv' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines "
                         "linestyle 1 title 'command'";
@@ -200,7 +223,7 @@ Script contour_script(const std::string& title, const DataSummary& data, bool pl
         ", \\\n    '' using (down(column('x_enc_mm'))):'y_enc_mm' with lines linestyle 2 "
         "dashtype 2 title 'measured'";
   }
-  return script("contour", settings, drawing + "\n");
+  return script("contour", settings, drawing + "\n", height);
 }
 
 }  // namespace

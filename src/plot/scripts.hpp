@@ -16,7 +16,7 @@ struct Script {
 /// Magnification 1, 2 or 5 times a power of ten at which the largest error spans about a twentieth
 /// of the picture.
 ///
-/// @param extent            size of the path [mm]
+/// @param extent            longer side of the path's bounding box [mm]
 /// @param largest_error_um  [um]
 /// @returns at least 1
 double magnification(double extent, double largest_error_um);

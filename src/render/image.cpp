@@ -29,20 +29,32 @@ Colour Image::at(int x, int y) const noexcept {
   return {pixel[0], pixel[1], pixel[2]};
 }
 
-void Image::mix(int x, int y, Colour colour, double part) noexcept {
-  if (x < 0 || y < 0 || x >= width_ || y >= height_) {
-    return;
+namespace {
+
+/// Mixes in 256ths: quick, and exact to half a step of 255.
+void mix_pixel(std::uint8_t* pixel, const Colour& colour, int weight) noexcept {
+  for (std::size_t i = 0; i < colour.size(); ++i) {
+    pixel[i] = static_cast<std::uint8_t>(pixel[i] + ((weight * (colour[i] - pixel[i]) + 128) >> 8));
   }
-  std::uint8_t* const pixel = data() + offset(x, y);
-  for (std::size_t i = 0; i < 3; ++i) {
-    pixel[i] = static_cast<std::uint8_t>(std::lround(pixel[i] + part * (colour[i] - pixel[i])));
+}
+
+int weight_of(double part) noexcept { return static_cast<int>(std::lround(256.0 * part)); }
+
+}  // namespace
+
+void Image::mix(int x, int y, Colour colour, double part) noexcept {
+  if (x >= 0 && y >= 0 && x < width_ && y < height_) {
+    mix_pixel(data() + offset(x, y), colour, weight_of(part));
   }
 }
 
 void Image::mix(const Rectangle& area, Colour colour, double part) noexcept {
+  const int weight = weight_of(part);
+  const int begin = std::max(area.x, 0);
+  const int end = std::min(area.x + area.width, width_);
   for (int y = std::max(area.y, 0); y < std::min(area.y + area.height, height_); ++y) {
-    for (int x = std::max(area.x, 0); x < std::min(area.x + area.width, width_); ++x) {
-      mix(x, y, colour, part);
+    for (int x = begin; x < end; ++x) {
+      mix_pixel(data() + offset(x, y), colour, weight);
     }
   }
 }

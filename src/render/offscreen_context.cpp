@@ -9,6 +9,14 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reser
   return "leak:libOSMesa.so";
 }
 #endif
+#ifdef __SANITIZE_THREAD__
+// Mesa's own threads wait for each other by means that a library built without the sanitizer does
+// not show.
+extern "C" const char* __tsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __tsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "race:libOSMesa.so";
+}
+#endif
 
 namespace twin::render {
 

@@ -50,6 +50,9 @@ void set_quality(mjModel& model, int width, int height, int samples) {
   model.vis.global.offheight = height;
   model.vis.quality.offsamples = samples;
   model.vis.quality.shadowsize = std::min(model.vis.quality.shadowsize, 1024);
+  model.vis.quality.numslices = std::min(model.vis.quality.numslices, 16);
+  model.vis.quality.numstacks = std::min(model.vis.quality.numstacks, 8);
+  model.vis.quality.numquads = std::min(model.vis.quality.numquads, 2);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
-#include <cstdint>
+#include <cstddef>
 #include <cstdio>
 #include <utility>
 
@@ -52,6 +52,15 @@ av::Owner<AVCodecContext> make_codec(int width, int height, int frames_per_secon
   return codec;
 }
 
+av::Owner<AVFrame> make_frame(AVPixelFormat format, int width, int height) {
+  av::Owner<AVFrame> frame(av_frame_alloc());
+  frame->format = format;
+  frame->width = width;
+  frame->height = height;
+  frame->pts = 0;
+  return av_frame_get_buffer(frame.get(), 0) < 0 ? nullptr : std::move(frame);
+}
+
 }  // namespace
 
 struct VideoEncoder::Parts {
@@ -61,6 +70,7 @@ struct VideoEncoder::Parts {
   av::Owner<AVFormatContext> format;
   av::Owner<AVCodecContext> codec;
   av::Owner<SwsContext> converter;
+  av::Owner<AVFrame> rgb;  // RGB, with room behind each row: the converter reads in large steps
   av::Owner<AVFrame> frame;
   av::Owner<AVPacket> packet;
   AVStream* stream = nullptr;  // of format
@@ -139,13 +149,10 @@ Expected<void> VideoEncoder::Parts::start(int width, int height, int frames_per_
   }
   converter = make_converter(width, height);
   packet.reset(av_packet_alloc());
-  frame.reset(av_frame_alloc());
-  frame->format = codec->pix_fmt;
-  frame->width = width;
-  frame->height = height;
-  frame->pts = 0;
-  status = av_frame_get_buffer(frame.get(), 0);
-  return status < 0 ? Expected<void>(av::error(name, "make a frame", status)) : Expected<void>{};
+  rgb = make_frame(AV_PIX_FMT_RGB24, width, height);
+  frame = make_frame(codec->pix_fmt, width, height);
+  return rgb && frame ? Expected<void>{}
+                      : Expected<void>(av::error(name, "make a frame", AVERROR(ENOMEM)));
 }
 
 Expected<void> VideoEncoder::push(const Image& image) {
@@ -153,9 +160,11 @@ Expected<void> VideoEncoder::push(const Image& image) {
   if (const int status = av_frame_make_writable(p.frame.get()); status < 0) {
     return av::error(p.name, "encode", status);
   }
-  const std::array<const std::uint8_t*, 1> planes{image.data()};
-  const std::array<int, 1> strides{3 * image.width()};
-  sws_scale(p.converter.get(), planes.data(), strides.data(), 0, image.height(), p.frame->data,
+  for (int y = 0; y < image.height(); ++y) {
+    std::copy_n(image.row(y), 3 * image.width(),
+                p.rgb->data[0] + static_cast<std::ptrdiff_t>(y) * p.rgb->linesize[0]);
+  }
+  sws_scale(p.converter.get(), p.rgb->data, p.rgb->linesize, 0, image.height(), p.frame->data,
             p.frame->linesize);
   auto encoded = p.encode(p.frame.get());
   ++p.frame->pts;

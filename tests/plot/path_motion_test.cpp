@@ -11,11 +11,12 @@ namespace {
 
 /// The motions at all set points of s(t) along a shape, with the machine at rest before and after.
 std::vector<TangentialMotion> motions(double period, int count,
-                                      const std::function<Vec3(double)>& point_at) {
+                                      const std::function<Vec3(double)>& point_at,
+                                      double feedrate = 0.0) {
   PathMotion motion(period);
   std::vector<TangentialMotion> result;
   for (int i = 0; i < count + static_cast<int>(motion.delay()); ++i) {
-    if (const auto got = motion.push(point_at(std::min(i, count - 1) * period))) {
+    if (const auto got = motion.push(point_at(std::min(i, count - 1) * period), feedrate)) {
       result.push_back(*got);
     }
   }
@@ -56,6 +57,24 @@ TEST(PathMotion, AStartAtFullFeedrateShowsAsAcceleration) {
   EXPECT_NEAR(got.front().acceleration, 50.0 / 0.001, 1e-6);
   EXPECT_NEAR(got[50].acceleration, 0.0, 1e-6);
   EXPECT_NEAR(got.back().acceleration, -50.0 / 0.001, 1e-6);
+}
+
+TEST(PathMotion, ACornerAtConstantFeedrateShowsNoJerk) {
+  constexpr double kFeedrate = 5.0;  // [mm/s]
+  for (const double angle : {0.3, 0.8, 1.6, 2.5}) {
+    const Vec3 after(std::cos(angle), std::sin(angle), 0.0);
+    const auto got = motions(
+        0.001, 400,
+        [&](double t) {
+          const double s = kFeedrate * (t - 0.2003);  // the corner lies within a period
+          return s < 0.0 ? Vec3(s, 0.0, 0.0) : Vec3(s * after);
+        },
+        kFeedrate);
+    for (std::size_t i = 20; i + 20 < got.size(); ++i) {
+      ASSERT_NEAR(got[i].acceleration, 0.0, 20.0) << angle << " at " << i;
+      ASSERT_NEAR(got[i].jerk, 0.0, 2000.0) << angle << " at " << i;
+    }
+  }
 }
 
 }  // namespace
