@@ -13,7 +13,7 @@
 namespace twin {
 namespace {
 
-constexpr std::size_t kBufferBytes = 64 * 1024;
+constexpr std::size_t kBufferBytes = 64UL * 1024;
 
 /// Takes the lock of an open file. File systems without locks are no obstacle. @returns 0 or errno
 int lock(int descriptor) {

@@ -208,9 +208,9 @@ class Stream {
 };
 
 Expected<void> save_programmed(const std::filesystem::path& folder, std::span<const Vec2> path) {
-  constexpr std::array<std::string_view, 2> kNames{"x_mm", "y_mm"};
+  constexpr std::array<std::string_view, 2> names{"x_mm", "y_mm"};
   auto file = trace::CsvFile::create(folder / "contour_programmed.csv",
-                                     folder / "contour_programmed.csv.tmp", kNames);
+                                     folder / "contour_programmed.csv.tmp", names);
   if (!file) {
     return tl::unexpected(std::move(file.error()));
   }

@@ -16,8 +16,6 @@
 #include <utility>
 #include <vector>
 
-extern char** environ;
-
 namespace twin::plot {
 namespace {
 
@@ -88,7 +86,7 @@ std::string telling_line(const std::string& text) {
   std::string first;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = text.substr(begin, end - begin);
+    std::string line = text.substr(begin, end - begin);
     if (line.find(" line ") != std::string::npos) {
       return line;
     }

@@ -37,11 +37,11 @@ constexpr double kSvgScale = 2.0 / 3.0;
 
 /// Height of a picture [pixels] at which a path of this shape leaves no empty strip.
 int path_height(const Vec2& extent) {
-  constexpr double kAxes = 1000.0;   // width of the plot [pixels]
-  constexpr double kBorder = 250.0;  // title, legend and labels [pixels]
-  constexpr double kLeast = 600.0;
-  const double wanted = kBorder + kAxes * 1.12 * extent.y() / std::max(extent.x(), 1e-6);
-  return static_cast<int>(std::clamp(wanted, kLeast, static_cast<double>(kHeight)));
+  constexpr double axes = 1000.0;   // width of the plot [pixels]
+  constexpr double border = 250.0;  // title, legend and labels [pixels]
+  constexpr double least = 600.0;
+  const double wanted = border + axes * 1.12 * extent.y() / std::max(extent.x(), 1e-6);
+  return static_cast<int>(std::clamp(wanted, least, static_cast<double>(kHeight)));
 }
 
 /// A place counted from the upper edge, as a part of the picture's height.
@@ -229,11 +229,11 @@ Script contour_script(const std::string& title, const DataSummary& data, bool pl
 }  // namespace
 
 double magnification(double extent, double largest_error_um) {
-  constexpr double kPart = 0.05;  // of the picture
+  constexpr double part = 0.05;  // of the picture
   if (!(largest_error_um > 0.0) || !(extent > 0.0)) {
     return 1.0;
   }
-  const double wanted = kPart * extent / (largest_error_um / 1000.0);
+  const double wanted = part * extent / (largest_error_um / 1000.0);
   const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
   const double digit = wanted / decade;
   return std::max(1.0, decade * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0));

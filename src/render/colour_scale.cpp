@@ -22,16 +22,16 @@ double round_up(double value) {
 ColourScale::ColourScale(double largest_error_um) : end_um_(round_up(largest_error_um)) {}
 
 Colour ColourScale::colour(double error_um) const noexcept {
-  constexpr std::array<Colour, 6> kPlasma{
+  constexpr std::array<Colour, 6> plasma{
       {{13, 8, 135}, {84, 2, 163}, {139, 10, 165}, {185, 50, 137}, {219, 92, 104}, {244, 136, 73}}};
-  constexpr std::size_t kLast = kPlasma.size() - 1;
-  const double place = std::clamp(error_um / end_um_, 0.0, 1.0) * kLast;
-  const std::size_t below = std::min(static_cast<std::size_t>(place), kLast - 1);
+  constexpr std::size_t last = plasma.size() - 1;
+  const double place = std::clamp(error_um / end_um_, 0.0, 1.0) * last;
+  const std::size_t below = std::min(static_cast<std::size_t>(place), last - 1);
   const double part = place - static_cast<double>(below);
   Colour result{};
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const double from = kPlasma[below][i];
-    const double to = kPlasma[below + 1][i];
+    const double from = plasma[below][i];
+    const double to = plasma[below + 1][i];
     result[i] = static_cast<std::uint8_t>(std::lround(from + part * (to - from)));
   }
   return result;

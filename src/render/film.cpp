@@ -34,7 +34,7 @@ PenTrail make_inset(const Survey& survey, ColourScale scale, int frame_width, in
 
 }  // namespace
 
-Film::Film(Survey survey, TraceRows&& rows, TableScene&& scene, int width, int height)
+Film::Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width, int height)
     : survey_(survey),
       scale_(survey.largest_error_um),
       rows_(std::move(rows)),

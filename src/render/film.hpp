@@ -33,7 +33,7 @@ class Film {
   Expected<Shot> shoot(double t);
 
  private:
-  Film(Survey survey, TraceRows&& rows, TableScene&& scene, int width, int height);
+  Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width, int height);
   Expected<void> play_until(double t);
 
   Survey survey_;

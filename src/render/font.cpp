@@ -33,7 +33,7 @@ Font Font::make(TableScene& scene) {
     letter.coverage = Image(letter.width, font.height_);
     for (int y = 0; y < font.height_; ++y) {
       for (int x = 0; x < letter.width; ++x) {
-        letter.coverage.row(y)[3 * x] = mean_of_four(large, x, y);
+        *letter.coverage.pixel(x, y) = mean_of_four(large, x, y);
       }
     }
   }
@@ -58,7 +58,7 @@ void Font::write(Image& picture, int x, int y, std::string_view text, Colour col
     const Letter& shape = letter(character);
     for (int dy = 0; dy < height_; ++dy) {
       for (int dx = 0; dx < shape.width; ++dx) {
-        const std::uint8_t part = shape.coverage.row(dy)[3 * dx];
+        const std::uint8_t part = *shape.coverage.pixel(dx, dy);
         if (part > 0) {
           picture.mix(x + dx, y + dy, colour, part / 255.0);
         }

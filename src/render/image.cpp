@@ -64,7 +64,7 @@ void Image::paste(const Image& picture, int x, int y) noexcept {
   const int right = std::min(x + picture.width(), width_);
   for (int to = std::max(y, 0); to < std::min(y + picture.height(), height_) && left < right;
        ++to) {
-    std::copy_n(picture.row(to - y) + 3 * (left - x), 3 * (right - left), row(to) + 3 * left);
+    std::copy_n(picture.pixel(left - x, to - y), 3 * (right - left), pixel(left, to));
   }
 }
 

@@ -30,8 +30,10 @@ class Image {
   int height() const noexcept { return height_; }
   std::uint8_t* data() noexcept { return pixels_.data(); }  ///< (height x width x 3)
   const std::uint8_t* data() const noexcept { return pixels_.data(); }
-  std::uint8_t* row(int y) noexcept { return data() + offset(0, y); }
-  const std::uint8_t* row(int y) const noexcept { return data() + offset(0, y); }
+  std::uint8_t* row(int y) noexcept { return pixel(0, y); }
+  const std::uint8_t* row(int y) const noexcept { return pixel(0, y); }
+  std::uint8_t* pixel(int x, int y) noexcept { return data() + offset(x, y); }
+  const std::uint8_t* pixel(int x, int y) const noexcept { return data() + offset(x, y); }
   Colour at(int x, int y) const noexcept;
 
   /// Mixes a colour into one pixel; nothing happens outside of the picture. @param part 0 to 1

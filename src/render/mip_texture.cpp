@@ -35,7 +35,7 @@ void send(const Image& picture, int level, const Rectangle& part) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, picture.width());
   glTexSubImage2D(GL_TEXTURE_2D, level, part.x, part.y, part.width, part.height, GL_RGB,
-                  GL_UNSIGNED_BYTE, picture.row(part.y) + 3 * part.x);
+                  GL_UNSIGNED_BYTE, picture.pixel(part.x, part.y));
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }

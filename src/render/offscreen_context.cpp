@@ -28,16 +28,16 @@ void OffscreenContext::Destroy::operator()(osmesa_context* context) const noexce
 }
 
 Expected<OffscreenContext> OffscreenContext::create() {
-  constexpr int kSide = 16;  // [pixels]
-  constexpr int kDepthBits = 24;
-  constexpr int kStencilBits = 8;
-  constexpr int kAccumBits = 8;
+  constexpr int side = 16;  // [pixels]
+  constexpr int depth_bits = 24;
+  constexpr int stencil_bits = 8;
+  constexpr int accum_bits = 8;
   OffscreenContext result;
   result.context_.reset(
-      OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, kStencilBits, kAccumBits, nullptr));
-  result.buffer_.resize(4UL * kSide * kSide);
+      OSMesaCreateContextExt(OSMESA_RGBA, depth_bits, stencil_bits, accum_bits, nullptr));
+  result.buffer_.resize(4UL * side * side);
   if (!result.context_ || OSMesaMakeCurrent(result.context_.get(), result.buffer_.data(),
-                                            GL_UNSIGNED_BYTE, kSide, kSide) == GL_FALSE) {
+                                            GL_UNSIGNED_BYTE, side, side) == GL_FALSE) {
     return fail(ErrorCode::kModel,
                 "OSMesa gave no OpenGL context for the video; is package libosmesa6 whole?");
   }

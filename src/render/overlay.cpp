@@ -107,9 +107,9 @@ Rectangle inset_size(int frame_width, int frame_height, const Vec2& extent) {
   const double x = std::max(extent.x(), 1e-3);
   const double y = std::max(extent.y(), 1e-3);
   const double scale = std::min(most_width / x, most_height / y);
-  constexpr double kLeast = 48.0;  // [pixels]
-  return {0, 0, static_cast<int>(std::max(x * scale, kLeast)),
-          static_cast<int>(std::max(y * scale, kLeast))};
+  constexpr double least = 48.0;  // [pixels]
+  return {0, 0, static_cast<int>(std::max(x * scale, least)),
+          static_cast<int>(std::max(y * scale, least))};
 }
 
 }  // namespace twin::render

@@ -5,14 +5,14 @@
 namespace twin::render {
 
 void PenTrail::advance(const TraceRow& row) {
-  constexpr double kShortest = 0.5;  // [pixels]
+  constexpr double shortest = 0.5;  // [pixels]
   if (row.position.z() > pen_up_) {
     last_.reset();
     return;
   }
   const Vec2 here = map_(row.position.head<2>());
   largest_error_um_ = std::max(largest_error_um_, row.error_um);
-  if (last_ && (here - *last_).norm() < kShortest) {
+  if (last_ && (here - *last_).norm() < shortest) {
     return;
   }
   canvas_.line(last_.value_or(here), here, scale_.colour(largest_error_um_));

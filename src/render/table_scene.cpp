@@ -19,9 +19,9 @@ namespace {
 /// mjvScene that frees itself.
 struct Scene : mjvScene {
   explicit Scene(const mjModel& model) {
-    constexpr int kMostGeoms = 2000;
+    constexpr int most_geoms = 2000;
     mjv_defaultScene(this);
-    mjv_makeScene(&model, this, kMostGeoms);
+    mjv_makeScene(&model, this, most_geoms);
   }
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;

@@ -22,9 +22,9 @@ av::Owner<SwsContext> make_converter(int width, int height) {
                                                  nullptr));
   if (converter) {
     const int* const table = sws_getCoefficients(SWS_CS_ITU709);
-    constexpr int kUnit = 1 << 16;  // contrast and saturation unchanged
+    constexpr int unit = 1 << 16;  // contrast and saturation unchanged
     sws_setColorspaceDetails(converter.get(), sws_getCoefficients(SWS_CS_DEFAULT), 1, table, 0, 0,
-                             kUnit, kUnit);
+                             unit, unit);
   }
   return converter;
 }

@@ -15,7 +15,7 @@
 namespace twin::trace {
 namespace {
 
-constexpr std::size_t kBlockBytes = 128 * 1024;  // and the longest line
+constexpr std::size_t kBlockBytes = 128UL * 1024;  // and the longest line
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) {

@@ -9,11 +9,11 @@
 namespace twin::trace {
 
 Expected<LimitWriter> LimitWriter::create(const std::filesystem::path& directory) {
-  constexpr std::array<std::string_view, 2> kLimitColumns{"t_s", "feedrate_limit_mm_per_s"};
+  constexpr std::array<std::string_view, 2> columns{"t_s", "feedrate_limit_mm_per_s"};
   const std::filesystem::path target = directory / kLimitName;
   std::filesystem::path temporary = target;
   temporary += ".tmp";
-  auto file = CsvFile::create(target, std::move(temporary), kLimitColumns);
+  auto file = CsvFile::create(target, std::move(temporary), columns);
   if (!file) {
     return tl::unexpected(std::move(file.error()));
   }
