@@ -106,63 +106,60 @@ void LookAhead::limit_cluster(double turn, double s) {
   turns_.push_back({s, turn, zones_.size() - 1});
 }
 
+/// Where a plan ends at rest: up to there no later corner lowers a limit any more.
+double LookAhead::horizon(bool is_last) const {
+  return is_last ? length_ : length_ - kHidingPeriods * limits_.feedrate * period_;
+}
+
 void LookAhead::plan(bool is_last) {
-  const auto from = std::find_if(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
-    return zone.end > start_.s + kPlaceRounding;
-  });
-  const std::span<const LimitZone> ahead(from, zones_.end());
-  const Knot end{length_, 0.0};
-  if (envelope_.plan(ahead, start_, end)) {
-    plan_ = envelope_.humps();
-  } else {
+  const double last = horizon(is_last);
+  if (last <= start_.s + kPlaceRounding && !is_last) {
+    return;
+  }
+  const auto to = std::find_if(zones_.rbegin(), zones_.rend(), [&](const LimitZone& zone) {
+                    return zone.begin < last - kPlaceRounding;
+                  }).base();
+  const auto next = [&] {
+    return std::find_if(zones_.begin(), to, [&](const LimitZone& zone) {
+      return zone.end > start_.s + kPlaceRounding;
+    });
+  };
+  while (!envelope_.plan({next(), to}, start_, {last, 0.0})) {
     ++fallbacks_;
-    if (start_.v == 0.0) {  // from rest a single low limit can always be kept
-      std::vector<LimitZone> even(ahead.begin(), ahead.end());
-      double lowest = limits_.feedrate;
-      for (const LimitZone& zone : even) {
-        lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
-      }
-      for (LimitZone& zone : even) {
-        zone.limit = std::min(zone.limit, lowest);
-      }
-      envelope_.plan(even, start_, end);
-      plan_ = envelope_.humps();
-    } else {
-      commit(plan_.back().b);  // the last plan's way to rest, then on from there
-      plan(is_last);
+    if (plan_.empty()) {
       return;
     }
+    commit(plan_.front().b);  // a hump of the last plan, which leads to rest at worst
   }
+  plan_ = envelope_.humps();
   commit(commit_knot(is_last));
   emit_covered(is_last);
 }
 
-/// Last place of the plan that the window's end does not slow down: a knot at its own limit or a
-/// hold under a cap. Where there is none, the last peak; where not even that, the start, and the
-/// window grows.
+/// Last place of the plan that its end does not slow down: a knot at its own limit or a hold under
+/// a cap. Where there is none, the last peak; where not even that, the start, and the window grows.
 Knot LookAhead::commit_knot(bool is_last) const {
   if (is_last) {
     return plan_.back().b;
   }
-  const double latest = length_ - 4.0 * limits_.feedrate * period_;
   Knot best = start_;
   Knot peak = start_;
   for (const Hump& hump : plan_) {
     const double hold_begin = hump.a.s + hump.up;
-    const double hold_end = std::min(hump.b.s - hump.down, latest);
+    const double hold_end = hump.b.s - hump.down;
     if (hold_end - hold_begin > kPlaceRounding) {
       best = {hold_end, hump.peak};
-    } else if (hold_begin <= latest) {
+    } else {
       peak = {hold_begin, hump.peak};
     }
-    if (hump.b.is_at_limit && hump.b.s <= latest) {
+    if (hump.b.is_at_limit) {
       best = hump.b;
     }
   }
   return best.s > start_.s + kPlaceRounding ? best : peak;
 }
 
-void LookAhead::commit(const Knot& knot) {
+void LookAhead::commit(Knot knot) {
   std::size_t done = 0;
   for (; done < plan_.size() && plan_[done].b.s <= knot.s + kPlaceRounding; ++done) {
     append_phases(plan_[done], ramp_, phases_);

@@ -43,9 +43,10 @@ class LookAhead {
  private:
   void append_junction(const path::Segment& before, const path::Segment& after);
   void limit_cluster(double turn, double s);
+  double horizon(bool is_last) const;
   void plan(bool is_last);
   Knot commit_knot(bool is_last) const;
-  void commit(const Knot& knot);
+  void commit(Knot knot);
   void emit_covered(bool is_last);
   void take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
   void forget(double begin, std::size_t phases, std::size_t zones);
