@@ -74,12 +74,15 @@ void LookAhead::append_junction(const path::Segment& before, const path::Segment
   limit_cluster(turn, length_);
 }
 
-/// Corners a few periods apart limit each other. Where the turns of several corners, over the distance l from the first
-/// to the last, sum to phi, the feedrate either keeps them apart (v T <= l) or obeys the corner rule for phi. And where
-/// one hides the other from the set points, it either puts kHidingPeriods between them or keeps the ripple small.
+/// Corners a few periods apart limit each other. Where the turns of several corners, over the
+/// distance l from the first to the last, sum to phi, the feedrate either keeps them apart (v T <=
+/// l) or obeys the corner rule for phi. And where one hides the other from the set points, it
+/// either puts kHidingPeriods between them or keeps the ripple small.
 void LookAhead::limit_cluster(double turn, double s) {
   LimitZone& latest = zones_.back();
-  const auto lower = [](LimitZone& zone, double limit) { zone.limit = std::min(zone.limit, limit); };
+  const auto lower = [](LimitZone& zone, double limit) {
+    zone.limit = std::min(zone.limit, limit);
+  };
   double sum = turn;
   for (auto old = turns_.rbegin(); old != turns_.rend(); ++old) {
     const double apart = (s - old->s) / period_;
@@ -88,8 +91,8 @@ void LookAhead::limit_cluster(double turn, double s) {
     }
     sum += old->angle;
     LimitZone& zone = zones_[old->zone];
-    const double together = corner_acceleration_feedrate(
-        std::min(sum, std::numbers::pi), 0.0, limits_.acceleration, period_);
+    const double together = corner_acceleration_feedrate(std::min(sum, std::numbers::pi), 0.0,
+                                                         limits_.acceleration, period_);
     lower(latest, std::max(apart, together));
     lower(zone, std::max(apart, together));
     const auto limit_hidden = [&](double hidden, double hiding, LimitZone& place) {
@@ -132,31 +135,56 @@ void LookAhead::plan(bool is_last) {
     commit(plan_.front().b);  // a hump of the last plan, which leads to rest at worst
   }
   plan_ = envelope_.humps();
-  commit(commit_knot(is_last));
+  commit(commit_knot(last, is_last));
   emit_covered(is_last);
+}
+
+/// How far a knot may be moved on and still leave room to come down, with no acceleration, to any
+/// feedrate below a lower limit before `last`, and to any at all at `last`; negative where it is
+/// too far already.
+///
+/// Of all ramps down from v the longest is not the one to rest: (v + w)/2 tau(v - w) is greatest at
+///   w = v / 3         where A is not reached, 2 v / 3 <= A^2 / J,
+///   w = A^2 / (2 J)   else.
+double LookAhead::room_after(const Knot& knot, double last) const {
+  const double worst =
+      std::min(knot.v / 3.0, 0.5 * ramp_.acceleration * ramp_.acceleration / ramp_.jerk);
+  const double longest = ramp_distance(knot.v, worst, ramp_);
+  double room = last - knot.s - longest;
+  const auto from = std::partition_point(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
+    return zone.end <= knot.s + kPlaceRounding;
+  });
+  for (auto zone = from; zone != zones_.end() && zone->begin < knot.s + longest + room; ++zone) {
+    if (zone->limit < knot.v) {
+      const double down = ramp_distance(knot.v, std::min(zone->limit, worst), ramp_);
+      room = std::min(room, zone->begin - knot.s - down);
+    }
+  }
+  return room;
 }
 
 /// Last place of the plan that its end does not slow down: a knot at its own limit or a hold under
 /// a cap. Where there is none, the last peak; where not even that, the start, and the window grows.
-Knot LookAhead::commit_knot(bool is_last) const {
+Knot LookAhead::commit_knot(double last, bool is_last) const {
   if (is_last) {
     return plan_.back().b;
   }
-  Knot best = start_;
   Knot peak = start_;
-  for (const Hump& hump : plan_) {
-    const double hold_begin = hump.a.s + hump.up;
-    const double hold_end = hump.b.s - hump.down;
-    if (hold_end - hold_begin > kPlaceRounding) {
-      best = {hold_end, hump.peak};
-    } else {
-      peak = {hold_begin, hump.peak};
+  for (auto hump = plan_.rbegin(); hump != plan_.rend(); ++hump) {
+    if (hump->b.is_at_limit && room_after(hump->b, last) >= -kPlaceRounding) {
+      return hump->b;
     }
-    if (hump.b.is_at_limit) {
-      best = hump.b;
+    const double hold = hump->b.s - hump->down - hump->a.s - hump->up;
+    const Knot top{hump->a.s + hump->up, hump->peak};
+    const double room = room_after(top, last);
+    if (hold > kPlaceRounding && room > kPlaceRounding) {
+      return {top.s + std::min(hold, room), top.v};
+    }
+    if (peak.s == start_.s && room >= 0.0 && top.s > start_.s + kPlaceRounding) {
+      peak = top;
     }
   }
-  return best.s > start_.s + kPlaceRounding ? best : peak;
+  return peak;
 }
 
 void LookAhead::commit(Knot knot) {

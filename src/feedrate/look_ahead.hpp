@@ -14,16 +14,18 @@ namespace twin::feedrate {
 /// Look-ahead: segments in, segments with feedrate out.
 ///
 /// It keeps a window of up to `look_ahead` segments whose feedrate is not settled, plans them so
-/// that the path could end at rest at the window's end, and settles the part that more segments
-/// would not change:
+/// that the path could end at rest at the horizon, just before the window's end, and settles the
+/// part that more segments would not change:
 ///
-///   settled | start ....... window ....... commit | braking to rest at the window's end
+///   settled | start ....... window ....... commit | braking to rest at the horizon | limits open
 ///           ^ knot of the last plan               ^ last knot or hold that the end does not slow
 ///           down
 ///
-/// Since every plan ends at rest inside what is known, the settled part can always be followed by a
-/// feasible one: should a new plan fail, the rest of the last one is taken, which only costs time.
-/// The result depends on the segments alone, not on when they arrive.
+/// Beyond the horizon a corner that is not known yet may still lower the limit of one that is; up
+/// to it all limits are final. From the committed knot any feedrate can be reached with no
+/// acceleration before the horizon, so the next plan can put its knots where it needs them. Should
+/// one fail all the same, humps of the last one are taken, which only costs time. The result
+/// depends on the segments alone, not on when they arrive.
 class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;
@@ -45,7 +47,8 @@ class LookAhead {
   void limit_cluster(double turn, double s);
   double horizon(bool is_last) const;
   void plan(bool is_last);
-  Knot commit_knot(bool is_last) const;
+  double room_after(const Knot& knot, double last) const;
+  Knot commit_knot(double last, bool is_last) const;
   void commit(Knot knot);
   void emit_covered(bool is_last);
   void take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
