@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "feedrate/corner_limit.hpp"
 #include "feedrate/segment_limits.hpp"
 
 namespace twin::feedrate {
@@ -42,70 +43,103 @@ void LookAhead::finish() {
   }
 }
 
+/// Where a plan ends at rest: up to there no later corner lowers a limit any more.
+double LookAhead::horizon(bool is_last) const {
+  return is_last ? length_ : length_ - kHidingPeriods * limits_.feedrate * period_;
+}
+
 void LookAhead::plan(bool is_last) {
-  while (!plan_window()) {
-    ++fallbacks_;
-    commit(plan_.front().b);  // the last plan stands: one hump further along it
+  const double last = horizon(is_last);
+  if (last <= start_.s + kPlaceRounding && !is_last) {
+    return;
   }
-  commit(commit_knot(is_last));
+  while (!envelope_.plan(zones_until(last), start_, {last, 0.0})) {
+    ++fallbacks_;
+    if (start_.v == 0.0) {
+      plan_evenly(last);
+      break;
+    }
+    commit(plan_.front().b);  // a hump of the last plan, which leads to rest at worst
+  }
+  plan_ = envelope_.humps();
+  commit(commit_knot(last, is_last));
   emit_covered(is_last);
 }
 
-/// Plans from start_ to rest at the window's end. From rest that always succeeds, if need be under
-/// the lowest limit.
-bool LookAhead::plan_window() {
+/// Zones between the start and a place.
+std::span<const LimitZone> LookAhead::zones_until(double last) const {
   const auto from = std::find_if(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
     return zone.end > start_.s + kPlaceRounding;
   });
-  std::vector<LimitZone> ahead(from, zones_.end());
-  const Knot end{length_, 0.0};
-  if (!envelope_.plan(ahead, start_, end)) {
-    if (start_.v > 0.0) {
-      return false;
-    }
-    double lowest = limits_.feedrate;
-    for (const LimitZone& zone : ahead) {
-      lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
-    }
-    for (LimitZone& zone : ahead) {
-      zone.limit = std::min(zone.limit, lowest);
-    }
-    ++fallbacks_;
-    envelope_.plan(ahead, start_, end);
-  }
-  plan_ = envelope_.humps();
-  return true;
+  const auto to = std::find_if(from, zones_.end(), [&](const LimitZone& zone) {
+    return zone.begin >= last - kPlaceRounding;
+  });
+  return {from, to};
 }
 
-/// Last place of the plan that the window's end does not slow down: a hold, as long as any lower
-/// limit known by then can still be braked for, or a knot at its own limit after which the feedrate
-/// rises. Where there is none, the last peak; where not even that, the start, and the window grows.
-Knot LookAhead::commit_knot(bool is_last) const {
+/// From rest, under the lowest limit everywhere, a plan always exists.
+void LookAhead::plan_evenly(double last) {
+  const auto ahead = zones_until(last);
+  std::vector<LimitZone> even(ahead.begin(), ahead.end());
+  double lowest = limits_.feedrate;
+  for (const LimitZone& zone : even) {
+    lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
+  }
+  for (LimitZone& zone : even) {
+    zone.limit = std::min(zone.limit, lowest);
+  }
+  envelope_.plan(even, start_, {last, 0.0});
+}
+
+/// How far a knot may be moved on and still leave room to come down, with no acceleration, to any
+/// feedrate below a lower limit before `last`, and to any at all at `last`; negative where it is
+/// too far already.
+///
+/// Of all ramps down from v the longest is not the one to rest: (v + w)/2 tau(v - w) is greatest at
+///   w = v / 3         where A is not reached, 2 v / 3 <= A^2 / J,
+///   w = A^2 / (2 J)   else.
+double LookAhead::room_after(const Knot& knot, double last) const {
+  const double worst =
+      std::min(knot.v / 3.0, 0.5 * ramp_.acceleration * ramp_.acceleration / ramp_.jerk);
+  const double longest = ramp_distance(knot.v, worst, ramp_);
+  double room = last - knot.s - longest;
+  const auto from = std::partition_point(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
+    return zone.end <= knot.s + kPlaceRounding;
+  });
+  for (auto zone = from; zone != zones_.end() && zone->begin < knot.s + longest + room; ++zone) {
+    if (zone->limit < knot.v) {
+      const double down = ramp_distance(knot.v, std::min(zone->limit, worst), ramp_);
+      room = std::min(room, zone->begin - knot.s - down);
+    }
+  }
+  return room;
+}
+
+/// Last place of the plan that its end does not slow down: a knot at its own limit or a hold under
+/// a cap. Where there is none, the last peak; where not even that, the start, and the window grows.
+Knot LookAhead::commit_knot(double last, bool is_last) const {
   if (is_last) {
     return plan_.back().b;
   }
-  const double latest = length_ - 4.0 * limits_.feedrate * period_;
-  Knot best = start_;
   Knot peak = start_;
-  for (std::size_t i = 0; i < plan_.size(); ++i) {
-    const Hump& hump = plan_[i];
-    const double hold_begin = hump.a.s + hump.up;
-    const double braking =
-        ramp_distance(hump.peak, hump.peak / 3.0, ramp_);  // the longest from there
-    const double hold_end = std::min(hump.b.s - hump.down - braking, latest);
-    if (hold_end - hold_begin > kPlaceRounding) {
-      best = {hold_end, hump.peak};
-    } else if (hold_begin <= latest) {
-      peak = {hold_begin, hump.peak};
+  for (auto hump = plan_.rbegin(); hump != plan_.rend(); ++hump) {
+    if (hump->b.is_at_limit && room_after(hump->b, last) >= -kPlaceRounding) {
+      return hump->b;
     }
-    if (hump.b.is_at_limit && hump.b.s <= latest && i + 1 < plan_.size() && plan_[i + 1].up > 0.0) {
-      best = hump.b;
+    const double hold = hump->b.s - hump->down - hump->a.s - hump->up;
+    const Knot top{hump->a.s + hump->up, hump->peak};
+    const double room = room_after(top, last);
+    if (hold > kPlaceRounding && room > kPlaceRounding) {
+      return {top.s + std::min(hold, room), top.v};
+    }
+    if (peak.s == start_.s && room >= 0.0 && top.s > start_.s + kPlaceRounding) {
+      peak = top;
     }
   }
-  return best.s > start_.s + kPlaceRounding ? best : peak;
+  return peak;
 }
 
-void LookAhead::commit(const Knot& knot) {
+void LookAhead::commit(Knot knot) {
   std::size_t done = 0;
   for (; done < plan_.size() && plan_[done].b.s <= knot.s + kPlaceRounding; ++done) {
     append_phases(plan_[done], ramp_, phases_);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/limits.hpp"
@@ -15,16 +16,18 @@ namespace twin::feedrate {
 /// Look-ahead: segments in, segments with feedrate out.
 ///
 /// It keeps a window of up to `look_ahead` segments whose feedrate is not settled, plans them so
-/// that the path could end at rest at the window's end, and settles the part that more segments
-/// would not change:
+/// that the path could end at rest at the horizon, just before the window's end, and settles the
+/// part that more segments would not change:
 ///
-///   settled | start ....... window ....... commit | braking to rest at the window's end
+///   settled | start ....... window ....... commit | braking to rest at the horizon | limits open
 ///           ^ knot of the last plan               ^ last knot or hold that the end does not slow
 ///           down
 ///
-/// Since every plan ends at rest inside what is known, the settled part can always be followed by a
-/// feasible one: should a new plan fail, the last one is followed one hump further, which only
-/// costs time. The result depends on the segments alone, not on when they arrive.
+/// Beyond the horizon a corner that is not known yet may still lower the limit of one that is; up
+/// to it all limits are final. From the committed knot any feedrate can be reached with no
+/// acceleration before the horizon, so the next plan can put its knots where it needs them. Should
+/// one fail all the same, humps of the last one are taken, which only costs time. The result
+/// depends on the segments alone, not on when they arrive.
 class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;
@@ -38,14 +41,17 @@ class LookAhead {
   /// No more segments follow: the path ends at rest.
   void finish();
 
-  /// How often an earlier plan had to be followed further than it was settled.
+  /// How often a plan could not be made as wanted.
   std::int64_t fallbacks() const noexcept { return fallbacks_; }
 
  private:
+  double horizon(bool is_last) const;
   void plan(bool is_last);
-  bool plan_window();
-  Knot commit_knot(bool is_last) const;
-  void commit(const Knot& knot);
+  std::span<const LimitZone> zones_until(double last) const;
+  void plan_evenly(double last);
+  double room_after(const Knot& knot, double last) const;
+  Knot commit_knot(double last, bool is_last) const;
+  void commit(Knot knot);
   void emit_covered(bool is_last);
   void take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
   void forget(double begin, std::size_t phases, std::size_t zones);

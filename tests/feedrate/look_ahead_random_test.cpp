@@ -61,20 +61,22 @@ TEST(LookAheadRandom, ProgramsArePlannedWholeWithinOtherLimits) {
   }
 }
 
-TEST(LookAheadRandom, AnEndlessWindowIsNotSlowerThanAShortOne) {
+TEST(LookAheadRandom, AShortWindowCostsLittleTime) {
   std::mt19937 random(4);
+  double sum = 0.0;
+  double sum_short = 0.0;
   for (int i = 0; i < 200; ++i) {
     const auto segments = path::testing::build(random_program(random, 25));
     PlanSettings settings;
     settings.look_ahead = 1000000;
-    const double whole = plan(segments, settings).time;
+    const double endless = plan(segments, settings).time;
     settings.look_ahead = 200;
-    const double usual = plan(segments, settings).time;
+    EXPECT_NEAR(plan(segments, settings).time, endless, 0.001 * endless) << "program " << i;
     settings.look_ahead = 2;
-    const double shortest = plan(segments, settings).time;
-    EXPECT_LE(whole, usual * (1.0 + 1e-9)) << "program " << i;
-    EXPECT_LE(usual, shortest * (1.0 + 1e-9)) << "program " << i;
+    sum += endless;
+    sum_short += plan(segments, settings).time;
   }
+  EXPECT_LE(sum_short, 1.001 * sum);
 }
 
 TEST(LookAheadRandom, NoPlanIsFasterThanAccelerationAloneAllows) {
