@@ -28,6 +28,9 @@ Expected<void> MujocoMachine::configure(double period) {
     return fail(ErrorCode::kMachine, "the table is active; deactivate it before configure");
   }
   cleanup();
+  if (!(period > 0.0) || !std::isfinite(period)) {
+    return fail(ErrorCode::kMachine, fmt::format("period {} s is not above 0", period));
+  }
   if (Expected<void> valid = validate(params_); !valid) {
     return valid;
   }

@@ -35,8 +35,9 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
 /// @returns [mm/s]; infinity for no turn
 double corner_ripple_feedrate(double turn, double jerk, double period) noexcept;
 
-/// A corner that turns by more than this stands out of any bend [rad].
-inline constexpr double kSharpTurn = 0.7;
+/// A corner that turns by more than this stands out of any bend, even where the two set points
+/// beside it share its turn [rad].
+inline constexpr double kSharpTurn = 1.4;
 
 /// Periods around a corner in which another turn hides it.
 inline constexpr double kHidingPeriods = 3.5;
