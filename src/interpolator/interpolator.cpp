@@ -7,7 +7,8 @@
 namespace twin::interpolator {
 namespace {
 
-constexpr double kResumeTime = 1.0;  // from rest back to the plan's full rate [s]
+constexpr double kResumeTime = 1.0;     // from rest back to the plan's full rate [s]
+constexpr double kRestRounding = 1e-6;  // place where braking ends [mm]
 
 }  // namespace
 
@@ -87,7 +88,11 @@ Status Interpolator::advance_plan(double dt) noexcept {
 
 Status Interpolator::advance_brake(double dt) noexcept {
   time_ = std::min(time_ + dt, brake_.duration);
-  for (double s = motion().s; s > current_->segment.length; s = motion().s) {
+  // Where the plan rests at the segment's end, so does braking, but for rounding.
+  const auto rests_here = [this] {
+    return brake_.phases.front().s + brake_.distance <= current_->segment.length + kRestRounding;
+  };
+  for (double s = motion().s; s > current_->segment.length && !rests_here(); s = motion().s) {
     const double length = current_->segment.length;
     if (!fetch()) {
       is_done_ = source_.is_finished();  // rest falls on the path's end, beyond it by rounding
@@ -106,11 +111,12 @@ Status Interpolator::advance_brake(double dt) noexcept {
 
 /// At rest after braking: finds the place in the plan, from where resume() goes on.
 void Interpolator::rejoin_plan() noexcept {
-  const double s = motion().s;
+  const double s = std::min(motion().s, current_->segment.length);
   const auto& phases = current_->phases;
   for (phase_ = 0; phase_ + 1 < phases.size() && phases[phase_ + 1].s <= s; ++phase_) {
   }
-  time_ = phases.empty() ? 0.0 : feedrate::time_at(phases[phase_], s);
+  const bool is_dwell = current_->segment.length == 0.0;  // it begins again
+  time_ = phases.empty() || is_dwell ? 0.0 : feedrate::time_at(phases[phase_], s);
   pending_ = 0.0;
   rate_ = 0.0;
   rate_change_ = 0.0;

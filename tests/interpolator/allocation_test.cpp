@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/interpolator/following.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Not inlined: g++ would see free() meet memory of operator new.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace twin::interpolator {
+namespace {
+
+TEST(Allocation, IsCountedHere) {
+  const long before = allocations;
+  delete new std::vector<double>(100);
+  EXPECT_GE(allocations - before, 1);
+}
+
+TEST(Allocation, AStepNeedsNoneWhetherMovingBrakingOrResuming) {
+  const auto plan = testing::mixed_plan(1e-3);
+  testing::PlanSource source(plan);
+  Interpolator interpolator(source, 1e-3);
+  SetPoint point;
+  const long before = allocations;
+  int steps = 0;
+  for (Status status = Status::kMoving; status != Status::kDone && steps < 100000; ++steps) {
+    status = interpolator.step(point);
+    if (steps % 300 == 200) {
+      interpolator.brake({2450.0, 50000.0});
+    }
+    if (status == Status::kAtRest) {
+      interpolator.resume();
+    }
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(steps, 1000);
+}
+
+}  // namespace
+}  // namespace twin::interpolator
