@@ -15,7 +15,7 @@ struct RampLimits {
 ///   tau(D) = 2 sqrt(D / J)     where A is not reached, D <= A^2 / J
 ///   tau(D) = D / A + A / J     else
 /// and, the mean feedrate of a symmetric ramp being (v1 + v2) / 2, it covers (v1 + v2) tau / 2.
-/// [WY, Eqs. 17-18 and 20-21] are the first case; the second adds the phase of constant
+/// [WY09, Eqs. 17-18 and 20-21] are the first case; the second adds the phase of constant
 /// acceleration.
 double ramp_time(double delta, const RampLimits& limits) noexcept;
 

@@ -7,7 +7,7 @@ namespace twin::interpolator {
 
 /// Second-order Taylor step of the parameter over a period T at feedrate V and tangential
 /// acceleration A:
-///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)                [WY, Eq.
+///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)                [WY09, Eq.
 ///   23]
 /// (printed there with |C'|^3 inside the bracket that 1/|C'| stands before: the same).
 /// @note Real-time safe.

@@ -6,7 +6,7 @@
 namespace twin::path {
 
 /// Corner angle from which on two blocks may be joined by a curve at a feedrate V:
-///   theta_critical = 2 acos(Kp / (1 - Kf) eps_max / V)                                  [WY, Eq.
+///   theta_critical = 2 acos(Kp / (1 - Kf) eps_max / V)                                  [WY09, Eq.
 ///   1]
 /// Where V is so small that the argument exceeds 1, every corner passes: 0.
 ///

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ostream>
 
 #include "hal/ideal/ideal_machine.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
@@ -25,6 +26,8 @@ struct Kind {
   const char* name;
   std::function<std::unique_ptr<Machine>()> make;
 };
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 std::unique_ptr<Machine> make_mujoco(const char* model) {
   TableParams params;
