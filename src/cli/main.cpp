@@ -40,7 +40,8 @@ int main(int argc, char** argv) try {
   using namespace twin::cli;
   CLI::App app(
       "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
-      "Start with: twin run dolphin.nc");
+      "Start with: twin run dolphin.nc",
+      "twin");
   app.set_version_flag("--version", "twin " TWIN_VERSION);
   app.require_subcommand(1);
   Options options;
