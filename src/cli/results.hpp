@@ -2,18 +2,13 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "cli/options.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "core/vec.hpp"
 #include "runtime/run.hpp"
 
 namespace twin::cli {
-
-/// Programmed path seen along Z, arcs as chords of a few degrees [mm]; thinned on long programs.
-std::vector<Vec2> programmed_outline(const std::filesystem::path& program);
 
 /// Removes the files of an earlier run in the folder that this one does not make again.
 void remove_stale_results(const std::filesystem::path& folder);

@@ -14,7 +14,7 @@ struct FigureInput {
   std::filesystem::path directory;  ///< holds trace.csv; the figures go to its folder plots
   std::string title;                ///< above every figure, as in "dolphin.nc, 3000 mm/min"
   std::vector<Vec2> programmed =
-      {};                  ///< programmed path as a polyline, arcs sampled [mm]; may be empty
+      {};  ///< programmed path as a polyline, arcs sampled, NaN lifts the line [mm]; may be empty
   bool plan_only = false;  ///< the trace has no machine in it: command figures alone
 };
 
