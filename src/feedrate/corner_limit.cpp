@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace twin::feedrate {
+namespace {
+
+constexpr double kRipple = 0.1;  // share of J_max that a hidden corner may seem to be
+
+}  // namespace
 
 double corner_model_feedrate(double turn, double corner_error,
                              const PlanningModel& model) noexcept {
@@ -23,7 +28,6 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
 }
 
 double corner_ripple_feedrate(double turn, double jerk, double period) noexcept {
-  constexpr double kRipple = 0.1;  // of J_max
   return turn > 0.0 ? 2.0 * kRipple * jerk * period * period / (turn * turn)
                     : std::numeric_limits<double>::infinity();
 }

@@ -64,13 +64,14 @@ void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>
     zone.limit = std::min(zone.limit, limit);
   };
   double sum = turn;
-  for (auto old = turns_.rbegin(); old != turns_.rend(); ++old) {
-    const double apart = (s - old->s) / period_;
+  for (std::size_t i = turns_.size(); i-- > 0;) {
+    const Turn& old = turns_[i];
+    const double apart = (s - old.s) / period_;
     if (apart >= kHidingPeriods * latest.limit) {
       break;
     }
-    sum += old->angle;
-    LimitZone& zone = zones[old->zone];
+    sum += old.angle;
+    LimitZone& zone = zones[old.zone];
     const double together = passing_feedrate(std::min(sum, std::numbers::pi), 0.0, ramp_, period_);
     lower(latest, std::max(apart, together));
     lower(zone, std::max(apart, together));
@@ -80,11 +81,11 @@ void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>
                               corner_ripple_feedrate(hidden, limits_.jerk, period_)));
       }
     };
-    limit_hidden(turn, old->angle, latest);
-    limit_hidden(old->angle, turn, zone);
+    limit_hidden(turn, old.angle, latest);
+    limit_hidden(old.angle, turn, zone);
   }
   const double forget = s - kHidingPeriods * limits_.feedrate * period_;
-  std::erase_if(turns_, [&](const Turn& old) { return old.s < forget; });
+  std::erase_if(turns_, [&](const Turn& past) { return past.s < forget; });
   turns_.push_back({s, turn, zones.size() - 1});
 }
 

@@ -122,12 +122,13 @@ Knot LookAhead::commit_knot(double last, bool is_last) const {
     return plan_.back().b;
   }
   Knot peak = start_;
-  for (auto hump = plan_.rbegin(); hump != plan_.rend(); ++hump) {
-    if (hump->b.is_at_limit && room_after(hump->b, last) >= -kPlaceRounding) {
-      return hump->b;
+  for (std::size_t i = plan_.size(); i-- > 0;) {
+    const Hump& hump = plan_[i];
+    if (hump.b.is_at_limit && room_after(hump.b, last) >= -kPlaceRounding) {
+      return hump.b;
     }
-    const double hold = hump->b.s - hump->down - hump->a.s - hump->up;
-    const Knot top{hump->a.s + hump->up, hump->peak};
+    const double hold = hump.b.s - hump.down - hump.a.s - hump.up;
+    const Knot top{hump.a.s + hump.up, hump.peak};
     const double room = room_after(top, last);
     if (hold > kPlaceRounding && room > kPlaceRounding) {
       return {top.s + std::min(hold, room), top.v};

@@ -15,9 +15,9 @@ constexpr std::size_t kJointPoints = 6;  // points on either side that settle a 
 
 }  // namespace
 
-RunFitter::RunFitter(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
+RunFitter::RunFitter(const PathSettings& settings, const PlanningModel& model, Limits limits,
                      Sink sink)
-    : settings_(settings), model_(model), limits_(limits), sink_(std::move(sink)) {}
+    : settings_(settings), model_(model), limits_(std::move(limits)), sink_(std::move(sink)) {}
 
 double RunFitter::tolerance() const {
   const double programmed = blocks_[first_].block.tolerance;

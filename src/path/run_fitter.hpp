@@ -27,8 +27,7 @@ class RunFitter {
  public:
   using Sink = std::function<void(Segment&&)>;
 
-  RunFitter(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
-            Sink sink);
+  RunFitter(const PathSettings& settings, const PlanningModel& model, Limits limits, Sink sink);
 
   bool is_empty() const noexcept { return blocks_.size() == first_; }
 

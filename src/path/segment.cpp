@@ -8,6 +8,10 @@
 namespace twin::path {
 namespace {
 
+// Gauss-Legendre with four points, the half of them at positive places.
+constexpr std::array<double, 2> kNodes{0.33998104358485626, 0.86113631159405258};
+constexpr std::array<double, 2> kWeights{0.65214515486254614, 0.34785484513745386};
+
 /// ds/df of an arc at fraction f.
 double stretch(const gcode::ArcGeometry& g, double f) noexcept {
   const double along = (g.radius + f * g.radius_change) * g.sweep;
@@ -17,8 +21,6 @@ double stretch(const gcode::ArcGeometry& g, double f) noexcept {
 /// Arc length from fraction 0 to f, by Gauss-Legendre with four points: the radius changes by a
 /// rounding only.
 double length_to(const gcode::ArcGeometry& g, double f) noexcept {
-  constexpr std::array<double, 2> kNodes{0.33998104358485626, 0.86113631159405258};
-  constexpr std::array<double, 2> kWeights{0.65214515486254614, 0.34785484513745386};
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     sum += kWeights[i] *

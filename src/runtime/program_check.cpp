@@ -27,9 +27,9 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   const gcode::ArcGeometry& arc = block.arc;
   for (int axis = 0; axis < 3; ++axis) {
     const double first = std::atan2(arc.e2[axis], arc.e1[axis]);
-    for (double angle = first - 2.0 * std::numbers::pi; angle < arc.sweep;
-         angle += std::numbers::pi) {
-      if (angle > 0.0) {
+    for (int half_turn = -1; half_turn <= 3; ++half_turn) {
+      const double angle = first + half_turn * std::numbers::pi;
+      if (angle > 0.0 && angle < arc.sweep) {
         include(metrics::point_at(block, angle / arc.sweep), low, high);
       }
     }
