@@ -34,23 +34,22 @@ int report(const twin::Expected<void>& result) {
   return twin::exit_status(result.error());
 }
 
-}  // namespace
+using twin::cli::Options;
 
-int main(int argc, char** argv) try {
-  using namespace twin::cli;
-  CLI::App app(
-      "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
-      "Start with: twin run dolphin.nc",
-      "twin");
-  app.set_version_flag("--version", "twin " TWIN_VERSION);
-  app.require_subcommand(1);
-  Options options;
+/// The subcommands; one of them is parsed.
+struct Commands {
+  CLI::App* run = nullptr;
+  CLI::App* plan = nullptr;
+  CLI::App* check = nullptr;
+  CLI::App* render = nullptr;
+};
 
-  CLI::App* run = app.add_subcommand(
+void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const run = app.add_subcommand(
       "run", "Plan a program, move the machine along it, write the results, print the summary");
-  add_planning_options(*run, options);
-  add_result_options(*run, options);
-  add_video_options(*run, options);
+  twin::cli::add_planning_options(*run, options);
+  twin::cli::add_result_options(*run, options);
+  twin::cli::add_video_options(*run, options);
   run->add_option("--hal", options.hal,
                   "Machine: mujoco is the simulated table, ideal has position = set point")
       ->check(CLI::IsMember({"mujoco", "ideal"}))
@@ -58,12 +57,16 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   run->add_flag("--realtime", options.realtime, "Keep to the wall clock");
 
-  CLI::App* plan =
+  CLI::App* const plan =
       app.add_subcommand("plan", "The same without a machine: set points, planned time, limits");
-  add_planning_options(*plan, options);
-  add_result_options(*plan, options);
+  twin::cli::add_planning_options(*plan, options);
+  twin::cli::add_result_options(*plan, options);
+  commands.run = run;
+  commands.plan = plan;
+}
 
-  CLI::App* check = app.add_subcommand("check", "Read and verify programs; nothing moves");
+void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const check = app.add_subcommand("check", "Read and verify programs; nothing moves");
   check->add_option("programs", options.programs, "NC programs: files, or names in nc_programs")
       ->required()
       ->type_name("PROGRAM.nc ...");
@@ -91,8 +94,31 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   render->add_flag("--no-plots", options.no_plots, "Write no figures");
   render->add_flag("--quiet", options.quiet, "Print errors only");
-  add_video_options(*render, options);
+  twin::cli::add_video_options(*render, options);
+  commands.check = check;
+  commands.render = render;
+}
 
+Commands add_commands(CLI::App& app, Options& options) {
+  Commands commands;
+  add_run_and_plan(app, options, commands);
+  add_check_and_render(app, options, commands);
+  return commands;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  using namespace twin::cli;
+  CLI::App app(
+      "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
+      "Start with: twin run dolphin.nc",
+      "twin");
+  app.set_version_flag("--version", "twin " TWIN_VERSION);
+  app.require_subcommand(1);
+  Options options;
+
+  const Commands commands = add_commands(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -104,13 +130,13 @@ int main(int argc, char** argv) try {
     return 2;
   }
   watch_signals();
-  if (run->parsed()) {
+  if (commands.run->parsed()) {
     return report(run_command(options, stop_requested));
   }
-  if (plan->parsed()) {
+  if (commands.plan->parsed()) {
     return report(plan_command(options, stop_requested));
   }
-  if (check->parsed()) {
+  if (commands.check->parsed()) {
     return report(check_command(options));
   }
   return report(render_command(options));

@@ -12,6 +12,8 @@
 namespace twin::cli {
 namespace {
 
+constexpr double kChordAngle = 0.02;  // of an arc [rad]
+
 /// Polyline of bounded size: when it is full, every other point goes, and of those to come as many.
 class ThinnedOutline {
  public:
@@ -34,7 +36,7 @@ class ThinnedOutline {
   void lift() {
     if (!points_.empty()) {
       points_.push_back(last_);
-      points_.push_back(Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
+      points_.emplace_back(Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
       count_ = 0;
     }
   }
@@ -56,7 +58,6 @@ class ThinnedOutline {
 };
 
 std::vector<Vec2> read_outline(const std::filesystem::path& program, bool skips_lifted) {
-  constexpr double kChordAngle = 0.02;  // of an arc [rad]
   ThinnedOutline outline;
   gcode::ReaderOptions options;
   options.feedrate = 1.0;  // the outline does not depend on it

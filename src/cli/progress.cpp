@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace twin::cli {
+namespace {
+
+constexpr int kWidth = 30;  // of the bar [characters]
+
+}  // namespace
 
 Progress::Progress(std::string what, bool quiet)
     : what_(std::move(what)), is_shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
@@ -23,7 +28,6 @@ void Progress::show(double share) {
   if (!is_shown_) {
     return;
   }
-  constexpr int kWidth = 30;
   const double part = std::clamp(share, 0.0, 1.0);
   const int done = static_cast<int>(part * kWidth);
   fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %", what_, "", done, "", kWidth - done,
