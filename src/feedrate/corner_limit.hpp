@@ -4,8 +4,8 @@
 
 namespace twin::feedrate {
 
-/// Corner feedrate of the servo model: V = Kp/(1 - Kf) eps_max / cos(theta / 2).          [WY09,
-/// Eq. 16]
+/// Corner feedrate of the servo model: V = Kp/(1 - Kf) eps_max / cos(theta / 2).
+///   [WY09, Eq. 16]
 ///
 /// @param turn  change of direction pi - theta, 0 <= turn <= pi [rad]
 /// @returns [mm/s]; infinity for a straight passage

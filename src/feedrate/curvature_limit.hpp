@@ -4,19 +4,19 @@
 
 namespace twin::feedrate {
 
-/// Curvature up to which the programmed feedrate V may stay: kappa_critical = a / V^2.   [WY09, Eq.
-/// 2]
+/// Curvature up to which the programmed feedrate V may stay: kappa_critical = a / V^2.
+///   [WY09, Eq. 2]
 double critical_curvature(double acceleration, double feedrate) noexcept;
 
 /// Feedrate at which the servo model's circular contouring error just reaches its tolerance.
 ///
 /// A first-order loop with feedforward, gains Kp and Kf, follows a circle of curvature kappa at
 /// angular velocity w on a radius that is too small by eps:
-///   kappa eps = 1 - sqrt((Kf^2 w^2 + Kp^2) / (w^2 + Kp^2))                             [WY09, Eq.
-///   3]
+///   kappa eps = 1 - sqrt((Kf^2 w^2 + Kp^2) / (w^2 + Kp^2))
+///   [WY09, Eq. 3]
 /// which for w gives
-///   w = Kp sqrt((1 - (1 - kappa eps)^2) / ((1 - kappa eps)^2 - Kf^2)),  V = w / kappa  [WY09, Eqs.
-///   4, 5]
+///   w = Kp sqrt((1 - (1 - kappa eps)^2) / ((1 - kappa eps)^2 - Kf^2)),  V = w / kappa
+///   [WY09, Eqs. 4, 5]
 /// For 1 - kappa eps <= Kf the model keeps the tolerance at any speed.
 ///
 /// @param curvature  kappa > 0 [1/mm]
