@@ -30,10 +30,10 @@ void add_planning_options(CLI::App& command, Options& options) {
       ->type_name("F");
   command
       .add_option("--interpolator", options.interpolator,
-                  "nurbs: runs of short blocks become curves; linear: the blocks as they are")
-      ->check(CLI::IsMember({"nurbs", "linear"}))
-      ->type_name("NAME")
-      ->capture_default_str();
+                  "What runs of short blocks become: nurbs (C2 curves), bezier (Fast Bezier), "
+                  "linear (nothing else) [of the machine file: nurbs]")
+      ->check(CLI::IsMember({"nurbs", "bezier", "linear"}))
+      ->type_name("NAME");
 }
 
 void add_result_options(CLI::App& command, Options& options) {
@@ -56,7 +56,11 @@ Expected<config::MachineFile> read_machine(const Options& options) {
   if (!file) {
     return tl::unexpected(file.error());
   }
-  return config::read_machine_file(*file, options.settings);
+  std::vector<std::string> settings = options.settings;
+  if (!options.interpolator.empty()) {
+    settings.push_back("interpolator.kind=" + options.interpolator);
+  }
+  return config::read_machine_file(*file, settings);
 }
 
 std::optional<double> feedrate_of(const Options& options) {

@@ -16,7 +16,7 @@ struct Options {
   std::vector<std::string> programs;      ///< as given: paths, or names in nc_programs
   std::string machine = "xy_table.toml";  ///< path, or name in mjcf
   std::string hal = "mujoco";
-  std::string interpolator = "nurbs";
+  std::string interpolator;  ///< empty: that of the machine file
   std::optional<double> feedrate_mm_per_min;
   std::vector<std::string> settings;  ///< section.key=value
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME

@@ -26,7 +26,6 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   request.program = *program;
   request.machine = *machine;
   request.hal = hal.get();
-  request.interpolator = options.interpolator;
   request.feedrate = feedrate_of(options);
   request.directory = result_folder(options, *program);
   request.is_wall_clock = options.realtime;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/nearest_name.hpp"
+
 namespace twin::config {
 namespace {
 
@@ -69,6 +71,18 @@ struct Assign {
     *field = *text;
     return {};
   }
+  Expected<void> operator()(const Choice& field) const {
+    const auto* text = std::get_if<std::string>(&value);
+    const auto name = text == nullptr ? field.names.end() : std::ranges::find(field.names, *text);
+    if (name == field.names.end()) {
+      const std::vector<std::string> names(field.names.begin(), field.names.end());
+      return wrong_type(
+          b, value,
+          "one of " + range_text(b) + (text == nullptr ? "" : did_you_mean(*text, names)));
+    }
+    field.set(static_cast<std::size_t>(name - field.names.begin()));
+    return {};
+  }
   Expected<void> operator()(Vec3* field) const {
     const auto* list = std::get_if<std::vector<double>>(&value);
     if (list == nullptr || list->size() != 3) {
@@ -109,6 +123,9 @@ std::string value_text(const Binding& binding) {
     std::string operator()(const double* x) const { return real_text(*x, per_base); }
     std::string operator()(const int* x) const { return std::to_string(*x); }
     std::string operator()(const std::string* x) const { return '"' + *x + '"'; }
+    std::string operator()(const Choice& x) const {
+      return '"' + std::string(x.names[x.get()]) + '"';
+    }
     std::string operator()(const Vec3* x) const {
       return fmt::format("[{}, {}, {}]", real_text(x->x(), per_base), real_text(x->y(), per_base),
                          real_text(x->z(), per_base));
@@ -137,6 +154,12 @@ std::string pretty_unit(std::string_view unit) {
 }
 
 std::string range_text(const Binding& binding) {
+  if (const auto* named = std::get_if<Choice>(&binding.target)) {
+    return fmt::format("{}", fmt::join(named->names, ", "));
+  }
+  if (std::holds_alternative<std::string*>(binding.target)) {
+    return "";
+  }
   const std::string unit = pretty_unit(binding.unit);
   return fmt::format("{:g} to {:g}{}{}", binding.min, binding.max, unit.empty() ? "" : " ", unit);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -14,12 +15,26 @@ namespace twin::config {
 /// A value as a machine file or a --set writes it.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
+/// A field that holds one of a few named values, an enumeration.
+struct Choice {
+  std::vector<std::string_view> names;  ///< in the order of the enumeration
+  std::function<std::size_t()> get;     ///< the field's place in `names`
+  std::function<void(std::size_t)> set;
+};
+
+/// The choice of an enumeration whose values count from 0 in the order of `names`.
+template <class Enum>
+Choice choice(Enum& field, std::vector<std::string_view> names) {
+  return {std::move(names), [&field] { return static_cast<std::size_t>(field); },
+          [&field](std::size_t i) { field = static_cast<Enum>(i); }};
+}
+
 /// One setting: its key, what it means, which values it may have, and the field that holds it.
 ///
 /// The key wears its unit (`acceleration_mm_per_s2`); the bare name (`acceleration`) means the
 /// same. The field is in base units: field = value / per_base.
 struct Binding {
-  using Target = std::variant<double*, int*, std::string*, Vec3*>;
+  using Target = std::variant<double*, int*, std::string*, Vec3*, Choice>;
 
   std::string section;  ///< "limits", "servo.x"
   std::string name;     ///< "acceleration"
@@ -55,7 +70,7 @@ std::string value_text(const Binding& binding);
 /// "mm/s^2" from "mm_per_s2", "1/s" from "per_s"; empty stays empty.
 std::string pretty_unit(std::string_view unit);
 
-/// "0.125 to 4 ms"
+/// "0.125 to 4 ms", or the names of a choice; empty where any text will do
 std::string range_text(const Binding& binding);
 
 }  // namespace twin::config

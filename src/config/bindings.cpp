@@ -46,6 +46,19 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "planned segments between planner and interpolator"});
 }
 
+void add_interpolator(List& list, interpolator::Settings& i, CurveKind& kind, double& period) {
+  const char* section = "interpolator";
+  list.push_back({section, "kind", "",
+                  choice(kind, {kInterpolatorNames.begin(), kInterpolatorNames.end()}), 0.0, 0.0,
+                  "what runs of short blocks become"});
+  list.push_back({section, "period", "ms", &period, 0.125, 4.0, "time between set points", 1e3});
+  list.push_back({section, "parameter_update", "",
+                  choice(i.update, {"taylor1", "taylor2", "rk4", "corrected"}), 0.0, 0.0,
+                  "how the parameter of a curve goes on from period to period"});
+  list.push_back({section, "curve_end", "", choice(i.curve_end, {"carry", "land"}), 0.0, 0.0,
+                  "at the end of a curve: carry the remainder over, or land on the end"});
+}
+
 void add_servo(List& list, const std::string& section, servo::Gains& g) {
   list.push_back({section, "kp", "per_s", &g.kp, 0.0, 1e5, "position gain"});
   list.push_back({section, "kd", "", &g.kd, 0.0, 1e3, "derivative gain"});
@@ -61,8 +74,7 @@ std::vector<Binding> bindings(MachineFile& machine) {
   List list;
   add_limits(list, machine.limits);
   add_planning(list, machine.planning, machine.path);
-  list.push_back({"interpolator", "period", "ms", &machine.period, 0.125, 4.0,
-                  "time between set points", 1e3});
+  add_interpolator(list, machine.interpolation, machine.path.curves, machine.period);
   add_servo(list, "servo.x", machine.servo[hal::kX]);
   add_servo(list, "servo.y", machine.servo[hal::kY]);
   for (Binding& binding : table_bindings(machine.table)) {

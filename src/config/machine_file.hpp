@@ -11,6 +11,7 @@
 #include "core/path_settings.hpp"
 #include "hal/mujoco/table_params.hpp"
 #include "hal/signals.hpp"
+#include "interpolator/settings.hpp"
 #include "servo/gains.hpp"
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
@@ -24,6 +25,7 @@ struct MachineFile {
   PlanningModel planning;
   PathSettings path;
   double period = 0.001;  ///< interpolation period T [s]
+  interpolator::Settings interpolation;
   std::array<servo::Gains, hal::kServoAxes> servo;
   hal::TableParams table;  ///< table.model is absolute once read
 };

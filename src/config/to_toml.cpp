@@ -14,8 +14,8 @@ std::string to_toml(const MachineFile& machine) {
       text += fmt::format("{}[{}]\n", section.empty() ? "" : "\n", binding.section);
       section = binding.section;
     }
-    const bool has_range = !std::holds_alternative<std::string*>(binding.target);
-    const std::string range = has_range ? fmt::format("({})", range_text(binding)) : "";
+    std::string range = range_text(binding);
+    range = range.empty() ? "" : "(" + range + ")";
     text += fmt::format("{:<46} # {}{}{}\n", binding.key() + " = " + value_text(binding),
                         binding.doc, binding.doc.empty() || range.empty() ? "" : " ", range);
   }

@@ -1,10 +1,25 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 namespace twin {
+
+/// What runs of continuous short blocks become; each makes an interpolator of its own.
+enum class CurveKind : std::uint8_t {
+  kNurbs,   ///< C2 cubic NURBS curves
+  kBezier,  ///< cubic Bezier pieces with continuous tangent (Fast Bezier interpolation)
+  kNone,    ///< the lines they are
+};
+
+/// Names of the interpolators, in the order of CurveKind.
+inline constexpr std::array<std::string_view, 3> kInterpolatorNames{"nurbs", "bezier", "linear"};
 
 /// How NC blocks become segments: which runs are fitted, how closely, and how far ahead the planner
 /// looks.
 struct PathSettings {
+  CurveKind curves = CurveKind::kNurbs;
   double chord_error = 0.01;  ///< chord tolerance, and the curve's distance from the polygon [mm]
   int min_segments = 3;       ///< fewest blocks that are fitted into one curve
   int max_segments = 20;      ///< most blocks in one curve

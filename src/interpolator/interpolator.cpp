@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "interpolator/parameter_update.hpp"
-
 namespace twin::interpolator {
 namespace {
 
@@ -29,7 +27,10 @@ bool Interpolator::fetch() noexcept {
   current_ = next;
   mark_ = 0;
   zone_ = 0;
-  has_u_ = false;
+  elapsed_ = 0.0;
+  has_landed_ = false;
+  const auto& phases = current_->phases;
+  follower_.enter(phases.empty() ? feedrate::PathMotion{} : feedrate::motion_at(phases[0], 0.0));
   return true;
 }
 
@@ -65,18 +66,35 @@ Status Interpolator::step(SetPoint& out) noexcept {
   return status;
 }
 
+/// Whether the current curve's end, just reached, takes a set point of its own.
+bool Interpolator::lands_here() noexcept {
+  if (!lands_ || has_landed_ ||
+      !std::holds_alternative<path::FittedCurve>(current_->segment.geometry)) {
+    return false;
+  }
+  has_landed_ = true;
+  pending_ = 0.0;
+  return true;
+}
+
 Status Interpolator::advance_plan(double dt) noexcept {
   pending_ += dt;
+  elapsed_ = 0.0;
   for (;;) {
     for (; phase_ < current_->phases.size(); ++phase_) {
       const double left = current_->phases[phase_].duration - time_;
       if (pending_ < left) {
         time_ += pending_;
+        elapsed_ += pending_;
         pending_ = 0.0;
         return Status::kMoving;
       }
       pending_ -= left;
+      elapsed_ += left;
       time_ = 0.0;
+    }
+    if (lands_here()) {
+      return Status::kMoving;
     }
     if (!fetch()) {
       is_done_ = source_.is_finished();
@@ -120,6 +138,7 @@ void Interpolator::rejoin_plan() noexcept {
   pending_ = 0.0;
   rate_ = 0.0;
   rate_change_ = 0.0;
+  has_landed_ = false;
   mode_ = Mode::kRest;
 }
 
@@ -161,7 +180,12 @@ feedrate::PathMotion Interpolator::motion() const noexcept {
     return feedrate::motion_at(brake_.phases[i], t);
   }
   if (phase_ >= current_->phases.size()) {
-    return {current_->segment.length, 0.0, 0.0};
+    feedrate::PathMotion end{current_->segment.length, 0.0, 0.0};
+    if (has_landed_) {
+      const feedrate::Phase& last = current_->phases.back();
+      end.v = feedrate::motion_at(last, last.duration).v;
+    }
+    return end;
   }
   feedrate::PathMotion m = feedrate::motion_at(current_->phases[phase_], time_);
   m.a = m.a * rate_ * rate_ + m.v * rate_change_;
@@ -181,11 +205,11 @@ path::PathPoint Interpolator::locate(const feedrate::PathMotion& m) noexcept {
   if (fitted == nullptr) {
     return segment.begin;
   }
-  const double predicted = has_u_ ? taylor_step(at_u_, u_, m.v, m.a, period_) : m.s;
-  u_ = corrected_parameter(fitted->curve, fitted->arc_length, m.s, predicted);
-  at_u_ = fitted->curve.derivatives(u_);
-  has_u_ = true;
-  return path::point_from(at_u_);
+  if (has_landed_) {
+    return segment.end;
+  }
+  const bool is_off_plan = mode_ != Mode::kPlan || rate_ != 1.0;
+  return follower_.follow(*fitted, m, elapsed_, period_, is_off_plan);
 }
 
 void Interpolator::place(SetPoint& out) noexcept {

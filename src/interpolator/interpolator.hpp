@@ -5,7 +5,9 @@
 
 #include "feedrate/brake.hpp"
 #include "feedrate/planned_segment.hpp"
+#include "interpolator/curve_follower.hpp"
 #include "interpolator/set_point.hpp"
+#include "interpolator/settings.hpp"
 
 namespace twin::interpolator {
 
@@ -37,7 +39,9 @@ enum class Status : std::uint8_t {
 ///
 /// Time runs through the phases of the planned segments without regard to where they end, so the
 /// remainder of a period is carried from one segment into the next: every period covers its full
-/// distance, and the machining time is that of the plan, rounded up to a period.
+/// distance, and the machining time is that of the plan, rounded up to a period. With
+/// CurveEnd::kLand the remainder is lost at the end of every curve: a set point lies on each of
+/// these ends, after a short step.
 ///
 /// brake() leaves the plan for the quickest way to rest on the same path. resume() returns to it:
 /// the plan's time then runs at a rate that grows smoothly from 0 to 1, so no limit of the plan is
@@ -46,7 +50,11 @@ class Interpolator {
  public:
   /// @param source  outlives the interpolator
   /// @param period  interpolation period T [s]
-  Interpolator(SegmentSource& source, double period) : source_(source), period_(period) {}
+  Interpolator(SegmentSource& source, double period, const Settings& settings = {})
+      : source_(source),
+        period_(period),
+        lands_(settings.curve_end == CurveEnd::kLand),
+        follower_(settings.update) {}
   Interpolator(const Interpolator&) = delete;
   Interpolator& operator=(const Interpolator&) = delete;
   ~Interpolator();
@@ -69,6 +77,7 @@ class Interpolator {
   enum class Mode : std::uint8_t { kPlan, kBrake, kRest };
 
   bool fetch() noexcept;
+  bool lands_here() noexcept;
   Status advance_plan(double dt) noexcept;
   Status advance_brake(double dt) noexcept;
   feedrate::PathMotion motion() const noexcept;
@@ -92,9 +101,10 @@ class Interpolator {
   feedrate::Brake brake_{};   // s from the start of the current segment
   std::size_t mark_ = 0;      // block of the current segment
   std::size_t zone_ = 0;      // limit zone of the current segment
-  double u_ = 0.0;            // parameter of the last set point on the current curve
-  bool has_u_ = false;
-  nurbs::Derivatives at_u_{};
+  double elapsed_ = 0.0;      // since the last set point or, if later, the segment's begin [s]
+  bool lands_;                // on the ends of curves
+  bool has_landed_ = false;   // the last set point is the end of the current curve
+  CurveFollower follower_;
 };
 
 }  // namespace twin::interpolator

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "nurbs/arc_length.hpp"
 #include "nurbs/curve.hpp"
 
@@ -13,6 +15,17 @@ namespace twin::interpolator {
 /// @note Real-time safe.
 double taylor_step(const nurbs::Derivatives& at, double u, double feedrate, double acceleration,
                    double period) noexcept;
+
+/// First-order Taylor step, u' = u + V T / |C'|.
+/// @note Real-time safe.
+double first_order_step(const nurbs::Derivatives& at, double u, double feedrate,
+                        double period) noexcept;
+
+/// Classical Runge-Kutta step of du/dt = V(t) / |C'(u)| over a period T, with the feedrate at its
+/// begin, middle and end [mm/s]. @p at are the derivatives at u.
+/// @note Real-time safe.
+double runge_kutta_step(const nurbs::Curve& curve, const nurbs::Derivatives& at, double u,
+                        const std::array<double, 3>& feedrate, double period) noexcept;
 
 /// Parameter of the place at arc length s: the Taylor step predicts it, and where it misses s by
 /// more than the arc length can tell, Newton steps on s(u) correct it. The step from one sample to

@@ -46,7 +46,7 @@ PathBuilder::PathBuilder(const PathSettings& settings, const PlanningModel& mode
       run_(settings, model, limits, sink_) {}
 
 bool PathBuilder::is_short(const gcode::Block& block) const {
-  return block.motion == gcode::Motion::kLinear &&
+  return settings_.curves != CurveKind::kNone && block.motion == gcode::Motion::kLinear &&
          block.path_mode == gcode::PathMode::kContinuous &&
          (block.end - block.start).norm() <= settings_.short_block_length;
 }

@@ -65,15 +65,34 @@ std::size_t RunFitter::piece_length() const {
   return count;
 }
 
-void RunFitter::emit_piece(std::size_t count) {
-  nurbs::EndCondition end;
-  const std::size_t joint = first_ + count;
-  if (joint < blocks_.size()) {
-    const std::size_t from = joint - std::min(joint, kJointPoints);
-    const std::size_t to = std::min(joint + kJointPoints, blocks_.size());
-    end = nurbs::joint_condition(fitter_, std::span(points_).subspan(from, to - from + 1),
-                                 joint - from);
+/// What the curves on both sides of points_[joint] have in common there; nothing at the run's end.
+nurbs::EndCondition RunFitter::condition_at(std::size_t joint) {
+  if (joint >= blocks_.size()) {
+    return {};
   }
+  if (settings_.curves == CurveKind::kBezier) {
+    return nurbs::circle_condition(points_[joint - 1], points_[joint], points_[joint + 1]);
+  }
+  const std::size_t from = joint - std::min(joint, kJointPoints);
+  const std::size_t to = std::min(joint + kJointPoints, blocks_.size());
+  return nurbs::joint_condition(fitter_, std::span(points_).subspan(from, to - from + 1),
+                                joint - from);
+}
+
+bool RunFitter::fit(std::span<const Vec3> points, const nurbs::EndCondition& end,
+                    nurbs::Curve& curve) {
+  return settings_.curves == CurveKind::kBezier ? bezier_fitter_.fit(points, begin_, end, curve)
+                                                : fitter_.fit(points, begin_, end, curve);
+}
+
+/// Chord-length parameters of the last fit [mm].
+const std::vector<double>& RunFitter::parameters() const {
+  return settings_.curves == CurveKind::kBezier ? bezier_fitter_.parameters()
+                                                : fitter_.parameters();
+}
+
+void RunFitter::emit_piece(std::size_t count) {
+  const nurbs::EndCondition end = condition_at(first_ + count);
   std::size_t worst = 0;
   if (emit_curve(count, end, worst)) {
     begin_ = end;
@@ -104,15 +123,15 @@ bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, st
   const auto points = std::span<const Vec3>(points_).subspan(first_, count + 1);
   FittedCurve fitted;
   worst = 0;
-  if (!fitter_.fit(points, begin_, end, fitted.curve)) {
+  if (!fit(points, end, fitted.curve)) {
     return false;
   }
-  const std::span<const double> parameters(fitter_.parameters());
-  if (nurbs::deviation_bound(fitted.curve, points, parameters) > tolerance()) {
+  const std::span<const double> at(parameters());
+  if (nurbs::deviation_bound(fitted.curve, points, at) > tolerance()) {
     double largest = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const double deviation =
-          nurbs::deviation_bound(fitted.curve, points.subspan(i, 2), parameters.subspan(i, 2));
+          nurbs::deviation_bound(fitted.curve, points.subspan(i, 2), at.subspan(i, 2));
       if (deviation > largest) {
         largest = deviation;
         worst = i;
@@ -129,8 +148,7 @@ bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, st
   segment.marks.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const RunBlock& run = blocks_[first_ + i];
-    const double s =
-        i + 1 < count ? curve.arc_length.s_at(curve.curve, parameters[i + 1]) : segment.length;
+    const double s = i + 1 < count ? curve.arc_length.s_at(curve.curve, at[i + 1]) : segment.length;
     segment.marks.push_back(
         {s, (run.block.end - run.block.start).norm(), run.number, run.block.line});
   }

@@ -2,18 +2,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "gcode/block.hpp"
+#include "nurbs/bezier_fit.hpp"
 #include "nurbs/fit.hpp"
 #include "path/segment.hpp"
 
 namespace twin::path {
 
 /// Fits one run of continuous short blocks by successive curves that join with continuous tangent
-/// and curvature.
+/// and curvature, or by Bezier pieces that join with continuous tangent.
 ///
 /// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks, each
 /// as soon as a few more points are known. At the joint of two pieces both are given the same first
@@ -46,6 +48,9 @@ class RunFitter {
   std::size_t piece_length() const;
   double tolerance() const;
   void emit_piece(std::size_t count);
+  nurbs::EndCondition condition_at(std::size_t joint);
+  bool fit(std::span<const Vec3> points, const nurbs::EndCondition& end, nurbs::Curve& curve);
+  const std::vector<double>& parameters() const;
   bool emit_curve(std::size_t count, const nurbs::EndCondition& end, std::size_t& worst);
   void emit_lines(std::size_t count);
   void emit_broken(std::size_t worst);
@@ -58,6 +63,7 @@ class RunFitter {
   Limits limits_;
   Sink sink_;
   nurbs::Fitter fitter_;
+  nurbs::BezierFitter bezier_fitter_;
   std::vector<RunBlock> blocks_;  // [0, first_) are settled and kept for the next joint only
   std::vector<Vec3> points_;      // start of blocks_[0] and the end of each block
   std::size_t first_ = 0;

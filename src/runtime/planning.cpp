@@ -29,7 +29,6 @@ void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
 }  // namespace
 
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
-                                   bool fits_curves,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
   PlanFigures figures;
   bool goes_on = true;
@@ -38,9 +37,7 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
                                    count(planned, figures);
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  PathSettings settings = machine.path;
-  settings.short_block_length = fits_curves ? settings.short_block_length : 0.0;
-  path::PathBuilder builder(settings, machine.planning, machine.limits,
+  path::PathBuilder builder(machine.path, machine.planning, machine.limits,
                             [&](path::Segment&& segment) { look_ahead.push(std::move(segment)); });
   while (goes_on) {
     auto block = reader.next();

@@ -26,7 +26,6 @@ struct PlanFigures {
 ///
 /// @param sink  takes each planned segment; returns false to stop
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
-                                   bool fits_curves,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink);
 
 }  // namespace twin::runtime

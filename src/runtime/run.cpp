@@ -53,7 +53,7 @@ class Run {
         recorder_(std::move(recorder)),
         segments_(static_cast<std::size_t>(request.machine.path.look_ahead)),
         samples_(kSampleBuffer),
-        interpolator_(segments_, request.machine.period),
+        interpolator_(segments_, request.machine.period, request.machine.interpolation),
         cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period) {}
 
   Expected<RunResult> execute();
@@ -89,9 +89,9 @@ gcode::ReaderOptions reader_options(const RunRequest& request) {
 }
 
 void Run::plan(gcode::Reader reader) {
-  auto figures = plan_program(
-      reader, request_.machine, request_.interpolator != "linear",
-      [this](feedrate::PlannedSegment&& planned) { return segments_.push(std::move(planned)); });
+  auto figures = plan_program(reader, request_.machine, [this](feedrate::PlannedSegment&& planned) {
+    return segments_.push(std::move(planned));
+  });
   if (figures) {
     plan_figures_ = *figures;
   } else {
@@ -186,7 +186,7 @@ metrics::Summary Run::summarise(double wall_time) {
   summary.program = request_.program.filename().string();
   summary.machine = request_.machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
-  summary.interpolator = request_.interpolator;
+  summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
   const metrics::Running& lengths = plan_figures_.short_length;

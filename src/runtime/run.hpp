@@ -17,9 +17,7 @@ namespace twin::runtime {
 struct RunRequest {
   std::filesystem::path program;  ///< NC program
   config::MachineFile machine;
-  hal::Machine* hal = nullptr;  ///< unconfigured machine; null: plan only
-  std::string interpolator =
-      "nurbs";                      ///< "nurbs" fits curves, "linear" leaves the blocks as they are
+  hal::Machine* hal = nullptr;      ///< unconfigured machine; null: plan only
   std::optional<double> feedrate;   ///< replaces the program's F words [mm/s]
   std::filesystem::path directory;  ///< of the results; made when missing
   bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock

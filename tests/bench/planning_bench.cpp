@@ -45,16 +45,16 @@ void read_only(benchmark::State& state) {
   count_blocks(state);
 }
 
-void read_to_planned(benchmark::State& state, double block_length, bool fits_curves) {
+void read_to_planned(benchmark::State& state, double block_length, CurveKind curves) {
   const std::string text = wavy_program(state.range(0), block_length);
-  const config::MachineFile machine;
+  config::MachineFile machine;
+  machine.path.curves = curves;
   for (auto _ : state) {
     gcode::Reader reader = gcode::Reader::from_text(text, "bench.nc");
-    auto figures =
-        plan_program(reader, machine, fits_curves, [](feedrate::PlannedSegment&& planned) {
-          benchmark::DoNotOptimize(planned);
-          return true;
-        });
+    auto figures = plan_program(reader, machine, [](feedrate::PlannedSegment&& planned) {
+      benchmark::DoNotOptimize(planned);
+      return true;
+    });
     if (!figures || figures->fallbacks != 0) {
       state.SkipWithError("the program could not be planned");
     }
@@ -63,14 +63,14 @@ void read_to_planned(benchmark::State& state, double block_length, bool fits_cur
 }
 
 BENCHMARK(read_only)->Arg(100000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, curves_0_26_mm, 0.26, true)
+BENCHMARK_CAPTURE(read_to_planned, curves_0_26_mm, 0.26, CurveKind::kNurbs)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, curves_0_02_mm, 0.02, true)
+BENCHMARK_CAPTURE(read_to_planned, curves_0_02_mm, 0.02, CurveKind::kNurbs)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, lines_0_26_mm, 0.26, false)
+BENCHMARK_CAPTURE(read_to_planned, lines_0_26_mm, 0.26, CurveKind::kNone)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 

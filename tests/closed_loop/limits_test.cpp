@@ -16,13 +16,14 @@ constexpr double kMoreDoubt = 1.07;
 
 struct Case {
   const char* program;
-  const char* interpolator;
+  CurveKind curves;
   double period;  // [s]
   double doubt = kDoubt;
 };
 
 void PrintTo(const Case& tested, std::ostream* out) {
-  *out << tested.program << ", " << tested.interpolator << ", " << 1e3 * tested.period << " ms";
+  *out << tested.program << ", " << kInterpolatorNames[static_cast<std::size_t>(tested.curves)]
+       << ", " << 1e3 * tested.period << " ms";
 }
 
 class ProgramLimits : public test::LoopTest, public ::testing::WithParamInterface<Case> {};
@@ -30,8 +31,9 @@ class ProgramLimits : public test::LoopTest, public ::testing::WithParamInterfac
 TEST_P(ProgramLimits, FeedrateAccelerationAndJerkAreKept) {
   config::MachineFile file = machine();
   file.period = GetParam().period;
+  file.path.curves = GetParam().curves;
   const metrics::Summary summary =
-      execute(program(GetParam().program), file, nullptr, std::nullopt, GetParam().interpolator);
+      execute(program(GetParam().program), file, nullptr, std::nullopt);
   const Limits& limits = file.limits;
   const bool has_rapids = std::string(GetParam().program) == "mixed.nc";
   EXPECT_LE(summary.audit.feedrate, (has_rapids ? limits.rapid_feedrate : 50.0) * 1.0001);
@@ -48,7 +50,8 @@ TEST_P(ProgramLimits, FeedrateAccelerationAndJerkAreKept) {
 TEST_P(ProgramLimits, VelocityChangesByAMaxTInAPeriodAtMostEachWay) {
   config::MachineFile file = machine();
   file.period = GetParam().period;
-  execute(program(GetParam().program), file, nullptr, std::nullopt, GetParam().interpolator);
+  file.path.curves = GetParam().curves;
+  execute(program(GetParam().program), file, nullptr, std::nullopt);
   const test::TraceRows rows(folder / "out/trace.csv");
   const auto x = rows.column("x_cmd_mm");
   const auto y = rows.column("y_cmd_mm");
@@ -63,14 +66,17 @@ TEST_P(ProgramLimits, VelocityChangesByAMaxTInAPeriodAtMostEachWay) {
   EXPECT_LE(largest, std::sqrt(2.0) * file.limits.acceleration * kDoubt);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Programs, ProgramLimits,
-    ::testing::Values(Case{"oxalis.nc", "nurbs", 1e-3}, Case{"dolphin.nc", "nurbs", 1e-3},
-                      Case{"butterfly.nc", "nurbs", 1e-3}, Case{"circle.nc", "nurbs", 1e-3},
-                      Case{"square.nc", "nurbs", 1e-3}, Case{"mixed.nc", "nurbs", 1e-3},
-                      Case{"dolphin.nc", "linear", 1e-3, kMoreDoubt},
-                      Case{"mixed.nc", "nurbs", 4e-3},
-                      Case{"square.nc", "nurbs", 0.125e-3, kMoreDoubt}));
+INSTANTIATE_TEST_SUITE_P(Programs, ProgramLimits,
+                         ::testing::Values(Case{"oxalis.nc", CurveKind::kNurbs, 1e-3},
+                                           Case{"dolphin.nc", CurveKind::kNurbs, 1e-3},
+                                           Case{"butterfly.nc", CurveKind::kNurbs, 1e-3},
+                                           Case{"circle.nc", CurveKind::kNurbs, 1e-3},
+                                           Case{"square.nc", CurveKind::kNurbs, 1e-3},
+                                           Case{"mixed.nc", CurveKind::kNurbs, 1e-3},
+                                           Case{"dolphin.nc", CurveKind::kNone, 1e-3, kMoreDoubt},
+                                           Case{"mixed.nc", CurveKind::kNurbs, 4e-3},
+                                           Case{"square.nc", CurveKind::kNurbs, 0.125e-3,
+                                                kMoreDoubt}));
 
 }  // namespace
 }  // namespace twin

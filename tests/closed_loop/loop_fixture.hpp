@@ -38,13 +38,11 @@ class LoopTest : public ::testing::Test {
   }
 
   metrics::Summary execute(const std::filesystem::path& nc, const config::MachineFile& file,
-                           hal::Machine* hal, std::optional<double> feedrate,
-                           const std::string& interpolator = "nurbs") const {
+                           hal::Machine* hal, std::optional<double> feedrate) const {
     runtime::RunRequest request;
     request.program = nc;
     request.machine = file;
     request.hal = hal;
-    request.interpolator = interpolator;
     request.feedrate = feedrate;
     request.directory = folder / "out";
     auto result = runtime::run_program(request);

@@ -13,11 +13,10 @@ namespace twin::test {
 
 /// All planned segments of a program's text.
 inline std::vector<feedrate::PlannedSegment> plan_text(const std::string& text,
-                                                       const config::MachineFile& machine = {},
-                                                       bool fits_curves = true) {
+                                                       const config::MachineFile& machine = {}) {
   std::vector<feedrate::PlannedSegment> planned;
   auto reader = gcode::Reader::from_text(text, "text");
-  const auto figures = runtime::plan_program(reader, machine, fits_curves, [&](auto&& segment) {
+  const auto figures = runtime::plan_program(reader, machine, [&](auto&& segment) {
     planned.push_back(std::move(segment));
     return true;
   });

@@ -13,10 +13,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Expected<PlanFigures> plan(const std::string& text, const config::MachineFile& machine = {},
-                           bool fits_curves = true) {
+Expected<PlanFigures> plan(const std::string& text, const config::MachineFile& machine = {}) {
   auto reader = gcode::Reader::from_text(text, "text");
-  return plan_program(reader, machine, fits_curves, [](auto&&) { return true; });
+  return plan_program(reader, machine, [](auto&&) { return true; });
 }
 
 /// Sine of short blocks, 0.2 mm apart in X.
@@ -84,7 +83,9 @@ TEST(Planning, ShortBlocksBecomeCurvesAndTheirLengthsAreThoseOfTheProgram) {
 }
 
 TEST(Planning, LinearLeavesTheBlocksAsTheyAre) {
-  const auto figures = plan(short_blocks(50), {}, false);
+  config::MachineFile machine;
+  machine.path.curves = CurveKind::kNone;
+  const auto figures = plan(short_blocks(50), machine);
   ASSERT_TRUE(figures);
   EXPECT_EQ(figures->curves, 0);
   EXPECT_EQ(figures->lines, 50);
@@ -111,7 +112,7 @@ TEST(Planning, SegmentsAreNumberedAndJoinWithoutGaps) {
 TEST(Planning, EndsWhenTheSinkSaysSo) {
   auto reader = gcode::Reader::from_text("G61\nG01 X1 F600\nX2\nX3\nX4\n", "text");
   int taken = 0;
-  const auto figures = plan_program(reader, {}, true, [&](auto&&) { return ++taken < 2; });
+  const auto figures = plan_program(reader, {}, [&](auto&&) { return ++taken < 2; });
   ASSERT_TRUE(figures);
   EXPECT_EQ(taken, 2);
 }
