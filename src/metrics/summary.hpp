@@ -16,6 +16,12 @@ struct ErrorFigures {
   double rms = 0.0;  ///< [mm]
 };
 
+/// Largest value and root mean square of shares [-]; 0.01 is 1 %.
+struct ShareFigures {
+  double max = 0.0;
+  double rms = 0.0;
+};
+
 /// Wall-clock time of one cycle's computation.
 struct CycleTimes {
   double p50 = 0.0;  ///< [s]
@@ -64,6 +70,7 @@ struct Summary {
   double path_length = 0.0;            ///< [mm]
   double planned_time = 0.0;           ///< [s]
   ErrorFigures command_contour_error;  ///< set points against programmed path
+  ShareFigures feedrate_fluctuation;   ///< see FeedrateFluctuation
   AuditPeaks audit;
   std::optional<MachineFigures> run;  ///< absent for a plan; its keys are then left out
 };

@@ -81,6 +81,8 @@ std::string to_json(const Summary& summary) {
     json["tracking_error_um"] = {{"x", error_um(summary.run->tracking_error[0])},
                                  {"y", error_um(summary.run->tracking_error[1])}};
   }
+  json["feedrate_fluctuation_percent"] = {{"max", rounded(1e2 * summary.feedrate_fluctuation.max)},
+                                          {"rms", rounded(1e2 * summary.feedrate_fluctuation.rms)}};
   json["audit"] = audit_of(summary.audit);
   if (summary.run) {
     json["cycle_time_us"] = cycle_time_us(summary.run->cycle_time);

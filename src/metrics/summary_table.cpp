@@ -76,6 +76,8 @@ void add_errors(Table& table, const Summary& s) {
     table.error_um("tracking error, x", s.run->tracking_error[0]);
     table.error_um("tracking error, y", s.run->tracking_error[1]);
   }
+  table.columns("feedrate fluctuation", fmt::format("{:.4f}", 1e2 * s.feedrate_fluctuation.max),
+                fmt::format("{:.4f}", 1e2 * s.feedrate_fluctuation.rms), "%");
 }
 
 void add_peaks(Table& table, const Summary& s, const Limits& limits) {

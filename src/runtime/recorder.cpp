@@ -30,6 +30,7 @@ Recorder::Recorder(const Options& options, gcode::Reader&& reader, trace::CsvWri
       limit_(std::move(limit)),
       in_space_(metrics::View::kSpace),
       along_z_(metrics::View::kAlongZ),
+      fluctuation_(options.period),
       audit_(options.period, options.limits) {}
 
 /// Reads on until no further block can change what the trackers say of this block.
@@ -60,6 +61,7 @@ Expected<void> Recorder::take(const trace::Sample& sample) {
   }
   in_space_.follow(sample.block, sample.command);
   command_error_.add(in_space_.nearest(sample.command).distance);
+  fluctuation_.add(sample.command, sample.feedrate);
   audit_.add(sample.command);
   double contour_error = 0.0;
   if (options_.has_machine) {
@@ -86,6 +88,7 @@ void Recorder::summarise(metrics::Summary& summary) {
     return metrics::ErrorFigures{error.max(), error.rms()};
   };
   summary.command_contour_error = figures(command_error_);
+  summary.feedrate_fluctuation = {fluctuation_.shares().max(), fluctuation_.shares().rms()};
   summary.audit = audit_.finish();
   if (!options_.has_machine) {
     return;

@@ -10,6 +10,7 @@
 #include "core/limits.hpp"
 #include "gcode/reader.hpp"
 #include "metrics/contour_tracker.hpp"
+#include "metrics/feedrate_fluctuation.hpp"
 #include "metrics/limit_audit.hpp"
 #include "metrics/log_histogram.hpp"
 #include "metrics/running.hpp"
@@ -62,6 +63,7 @@ class Recorder {
   trace::LimitWriter limit_;
   metrics::ContourTracker in_space_;
   metrics::ContourTracker along_z_;
+  metrics::FeedrateFluctuation fluctuation_;
   metrics::LimitAudit audit_;
   metrics::Running command_error_;
   metrics::Running contour_error_;

@@ -50,13 +50,13 @@ class ManyBlocks : public test::LoopTest {
 };
 
 TEST_F(ManyBlocks, LineIn2000PiecesTakesAsLongAsUncut) {
-  const config::MachineFile file = machine();
+  config::MachineFile file = machine();
   const double uncut = plan(line(60.0, 80.0, 1)).planned_time;
   EXPECT_NEAR(uncut, 100.0 / 50.0 + 2.0 * std::sqrt(50.0 / file.limits.jerk), 1e-9);
-  for (const char* interpolator : {"nurbs", "linear"}) {
-    const double cut =
-        execute(line(60.0, 80.0, 2000), file, nullptr, std::nullopt, interpolator).planned_time;
-    EXPECT_NEAR(cut, uncut, file.period) << interpolator;
+  for (const CurveKind curves : {CurveKind::kNurbs, CurveKind::kBezier, CurveKind::kNone}) {
+    file.path.curves = curves;
+    const double cut = execute(line(60.0, 80.0, 2000), file, nullptr, std::nullopt).planned_time;
+    EXPECT_NEAR(cut, uncut, file.period) << kInterpolatorNames[static_cast<std::size_t>(curves)];
   }
 }
 

@@ -45,9 +45,9 @@ void PlanSource::release(const PlannedSegment* segment) noexcept {
 }
 
 std::vector<SetPoint> follow(const feedrate::testing::Plan& plan, double period,
-                             std::size_t starve_every) {
+                             std::size_t starve_every, const Settings& settings) {
   PlanSource source(plan, starve_every);
-  Interpolator interpolator(source, period);
+  Interpolator interpolator(source, period, settings);
   std::vector<SetPoint> points;
   SetPoint point;
   for (Status status = Status::kMoving; status != Status::kDone;) {

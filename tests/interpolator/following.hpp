@@ -29,7 +29,7 @@ class PlanSource final : public SegmentSource {
 
 /// All set points of a plan.
 std::vector<SetPoint> follow(const feedrate::testing::Plan& plan, double period,
-                             std::size_t starve_every = 0);
+                             std::size_t starve_every = 0, const Settings& settings = {});
 
 /// Place of the path at a time of the plan, found without the interpolator [mm].
 Vec3 place_at(const feedrate::testing::Plan& plan, double time);

@@ -25,6 +25,7 @@ Summary sample_summary() {
   s.path_length = 455.123456789;
   s.planned_time = 10.1;
   s.command_contour_error = {0.0031, 0.001};
+  s.feedrate_fluctuation = {0.57, 0.01};
   s.audit.feedrate = 50.0;
   s.audit.tangential_jerk = 49999.5;
   s.run = MachineFigures{};
@@ -46,12 +47,13 @@ std::vector<std::string> keys(const Json& json) {
 
 TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
   const Json json = Json::parse(to_json(sample_summary()));
-  EXPECT_THAT(keys(json), testing::ElementsAre(
-                              "program", "machine", "hal", "interpolator", "simulated", "period_s",
-                              "blocks", "segments", "compression_factor", "path_length_mm",
-                              "planned_time_s", "machining_time_s", "command_contour_error_um",
-                              "contour_error_um", "table_contour_error_um", "tracking_error_um",
-                              "audit", "cycle_time_us", "real_time_factor"));
+  EXPECT_THAT(keys(json),
+              testing::ElementsAre(
+                  "program", "machine", "hal", "interpolator", "simulated", "period_s", "blocks",
+                  "segments", "compression_factor", "path_length_mm", "planned_time_s",
+                  "machining_time_s", "command_contour_error_um", "contour_error_um",
+                  "table_contour_error_um", "tracking_error_um", "feedrate_fluctuation_percent",
+                  "audit", "cycle_time_us", "real_time_factor"));
   EXPECT_THAT(keys(json["blocks"]), testing::ElementsAre("total", "short", "length_mm"));
   EXPECT_THAT(keys(json["blocks"]["length_mm"]), testing::ElementsAre("min", "mean", "max"));
   EXPECT_THAT(keys(json["segments"]), testing::ElementsAre("total", "curves", "lines", "arcs"));
@@ -71,6 +73,7 @@ TEST(SummaryJson, ValuesAreInTheUnitsOfTheirKeys) {
   EXPECT_EQ(json["blocks"]["length_mm"]["mean"], 0.353);
   EXPECT_EQ(json["command_contour_error_um"]["max"], 3.1);
   EXPECT_EQ(json["tracking_error_um"]["y"]["max"], 300.0);
+  EXPECT_EQ(json["feedrate_fluctuation_percent"]["max"], 57.0);
   EXPECT_EQ(json["cycle_time_us"]["p50"], 0.4);
   EXPECT_EQ(json["path_length_mm"], 455.123457);
   EXPECT_EQ(json["simulated"], true);
