@@ -66,6 +66,31 @@ TEST(RunJoint, OfCurvesOfASingleBlockIsSmoothToo) {
   expect_smooth_joints(segments);
 }
 
+TEST(RunJoint, OfBezierPiecesHasContinuousTangentButNotCurvature) {
+  PathSettings settings;
+  settings.curves = CurveKind::kBezier;
+  const auto segments = build(polyline(wavy_points()), settings);
+  ASSERT_GE(segments.size(), 20U);
+  double largest = 0.0;
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const Segment& a = segments[i - 1];
+    const Segment& b = segments[i];
+    EXPECT_TRUE(is_curve(a) && is_curve(b));
+    EXPECT_LT((a.end.position - b.begin.position).norm(), 1e-12);
+    EXPECT_LT((a.end.tangent - b.begin.tangent).norm(), 1e-12);
+    largest = std::max(largest, (a.end.curvature - b.begin.curvature).norm());
+  }
+  EXPECT_GT(largest, 1e-3);
+}
+
+TEST(RunJoint, LinearInterpolatorFitsNothing) {
+  PathSettings settings;
+  settings.curves = CurveKind::kNone;
+  for (const Segment& segment : build(polyline(wavy_points()), settings)) {
+    EXPECT_TRUE(testing::is_line(segment));
+  }
+}
+
 TEST(RunJoint, DoesNotDependOnHowManyBlocksFollow) {
   const auto points = wavy_points();
   const auto whole = build(polyline(points));
