@@ -42,6 +42,7 @@ struct Commands {
   CLI::App* plan = nullptr;
   CLI::App* check = nullptr;
   CLI::App* render = nullptr;
+  CLI::App* reproduce = nullptr;
 };
 
 void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
@@ -99,10 +100,35 @@ void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
   commands.render = render;
 }
 
+void add_reproduce(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const reproduce = app.add_subcommand(
+      "reproduce", "Tables 1 to 5 and Figs. 12 to 19 of Wang and Yau's paper beside ours");
+  reproduce
+      ->add_option("--machine", options.machine, "Machine file: a file, or the name of one in mjcf")
+      ->type_name("FILE.toml")
+      ->capture_default_str();
+  reproduce
+      ->add_option("--set", options.settings, "Change a setting of the machine file (repeatable)")
+      ->type_name("SECTION.KEY=VALUE")
+      ->take_all()
+      ->expected(1);
+  reproduce
+      ->add_option("--repeats", options.repeats, "Runs a row with other encoder and hum phases")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N")
+      ->capture_default_str();
+  reproduce->add_option("--out", options.out, "Folder of the results [renders/reproduce]")
+      ->type_name("DIR");
+  reproduce->add_flag("--no-plots", options.no_plots, "Draw no figures");
+  reproduce->add_flag("--quiet", options.quiet, "Print errors only");
+  commands.reproduce = reproduce;
+}
+
 Commands add_commands(CLI::App& app, Options& options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
   add_check_and_render(app, options, commands);
+  add_reproduce(app, options, commands);
   return commands;
 }
 
@@ -138,6 +164,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.check->parsed()) {
     return report(check_command(options));
+  }
+  if (commands.reproduce->parsed()) {
+    return report(reproduce_command(options, stop_requested));
   }
   return report(render_command(options));
 } catch (const std::exception& error) {

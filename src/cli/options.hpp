@@ -21,6 +21,7 @@ struct Options {
   std::vector<std::string> settings;  ///< section.key=value
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
   std::string camera = "iso";
+  int repeats = 10;  ///< of the runs of reproduce, with other phases
   bool video = false;
   bool no_plots = false;
   bool realtime = false;

@@ -1,0 +1,69 @@
+#include <fmt/core.h>
+
+#include "cli/commands.hpp"
+#include "cli/machines.hpp"
+#include "cli/progress.hpp"
+#include "config/find_file.hpp"
+#include "reproduce/figure_kinds.hpp"
+#include "reproduce/render_grid.hpp"
+#include "reproduce/write_results.hpp"
+
+namespace twin::cli {
+namespace {
+
+void print(const reproduce::Reproduction& reproduction) {
+  fmt::print("{}\nA ratio is ours / published; ! marks one that is more than 30 % off.\n\n",
+             reproduction.source);
+  for (int table = reproduce::kFirstTable; table <= reproduce::kLastTable; ++table) {
+    fmt::print("{}\n", to_text(grid_of_table(reproduction, table)));
+  }
+  fmt::print("{}\n", to_text(grid_of_counts(reproduction)));
+}
+
+}  // namespace
+
+Expected<void> reproduce_command(const Options& options, const std::atomic<bool>& stop) {
+  reproduce::Request request;
+  auto published = reproduce::published();
+  auto machine = config::find_machine(options.machine);
+  if (!published || !machine) {
+    return tl::unexpected(!published ? published.error() : machine.error());
+  }
+  const std::filesystem::path out = options.out.empty() ? "renders/reproduce" : options.out;
+  auto workshop = reproduce::Workshop::open(out);
+  if (!workshop) {
+    return tl::unexpected(workshop.error());
+  }
+  request.published = *published;
+  request.machine_file = *machine;
+  request.settings = options.settings;
+  request.repeats = options.repeats;
+  request.folder = workshop->folder();
+  request.running.make_machine = [](const config::MachineFile& file) {
+    return make_machine("mujoco", file);
+  };
+  request.running.stop = &stop;
+  Expected<reproduce::Reproduction> reproduction;
+  {
+    Progress progress("machining", options.quiet);
+    request.running.progress = progress.callback();
+    reproduction = reproduce::reproduce(request);
+  }
+  if (!reproduction) {
+    return tl::unexpected(reproduction.error());
+  }
+  {
+    Progress progress("plots", options.quiet || options.no_plots);
+    progress.show(0.0);
+    if (auto written = write_results(*reproduction, *workshop, !options.no_plots); !written) {
+      return written;
+    }
+  }
+  if (!options.quiet) {
+    print(*reproduction);
+    fmt::print("tables and figures: {}\n", (out / "index.html").string());
+  }
+  return {};
+}
+
+}  // namespace twin::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reproduce/reproduction.hpp"
+
+/// Texts of the files that a reproduction leaves.
+namespace twin::reproduce {
+
+/// tables.csv: one line a published figure and variant:
+///   table,program,interpolator,feedrate_mm_per_min,variant,figure,unit,published,ours,ratio,mean,
+///   sd,mean_ratio
+/// The last three are empty where nothing was repeated.
+std::string csv_text(const Reproduction& reproduction);
+
+/// reproduce.json: source, machine, repeats, counts and the figures.
+std::string json_text(const Reproduction& reproduction);
+
+/// tables.md: the tables, the counts, what differs.
+std::string markdown_text(const Reproduction& reproduction);
+
+/// A picture on the page.
+struct Picture {
+  std::string name;     ///< of its files in the folder figures, as in "fig12_oxalis"
+  std::string caption;  ///< below it
+};
+
+/// index.html: the same with the pictures.
+std::string page_text(const Reproduction& reproduction, const std::vector<Picture>& pictures);
+
+/// Why our figures differ from the published ones, one sentence or two each, with figures of these
+/// runs.
+std::vector<std::string> differences(const Reproduction& reproduction);
+
+}  // namespace twin::reproduce

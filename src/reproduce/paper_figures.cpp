@@ -1,0 +1,219 @@
+#include "reproduce/paper_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "core/atomic_file.hpp"
+#include "plot/gnuplot.hpp"
+#include "reproduce/contour_panel.hpp"
+#include "reproduce/figure_script.hpp"
+#include "trace/columns.hpp"
+#include "trace/csv_file.hpp"
+#include "trace/decimator.hpp"
+
+namespace twin::reproduce {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostRows = 6000;  // of a figure's data
+
+/// Figures are collected here, then drawn.
+class Album {
+ public:
+  explicit Album(fs::path folder) : folder_(std::move(folder)) {}
+
+  /// The named columns of a run's trace, thinned, as NAME.csv.
+  Expected<trace::Table> copy_data(const Answer& answer, const std::string& name,
+                                   std::span<const std::string_view> columns) const {
+    auto table = trace::load_decimated(answer.folder / trace::kTraceName, columns, kMostRows);
+    if (!table) {
+      return table;
+    }
+    auto file =
+        trace::CsvFile::create(folder_ / (name + ".csv"), folder_ / (name + ".csv.tmp"), columns);
+    if (!file) {
+      return tl::unexpected(std::move(file.error()));
+    }
+    for (std::size_t i = 0; i < table->rows(); ++i) {
+      if (auto written = file->write(table->row(i)); !written) {
+        return tl::unexpected(std::move(written.error()));
+      }
+    }
+    if (auto committed = file->commit(); !committed) {
+      return tl::unexpected(std::move(committed.error()));
+    }
+    return table;
+  }
+
+  Expected<void> add(const std::string& name, const std::string& title,
+                     const std::vector<Panel>& panels) {
+    scripts_.push_back(name + ".gp");
+    pictures_.push_back({name, title});
+    return write_whole_file(folder_ / scripts_.back(), figure_script(name, title, panels));
+  }
+
+  Expected<std::vector<Picture>> draw() {
+    if (auto drawn = plot::run_gnuplot(folder_, scripts_); !drawn) {
+      return tl::unexpected(std::move(drawn.error()));
+    }
+    for (const Picture& picture : pictures_) {
+      for (const char* extension : {".png", ".svg"}) {
+        std::error_code code;
+        if (fs::file_size(folder_ / (picture.name + extension), code) == 0 || code) {
+          return fail(ErrorCode::kFile,
+                      "gnuplot did not write picture " + picture.name + extension);
+        }
+      }
+    }
+    return std::move(pictures_);
+  }
+
+ private:
+  fs::path folder_;
+  std::vector<std::string> scripts_;
+  std::vector<Picture> pictures_;
+};
+
+constexpr const char* kTime = "time [s]";
+constexpr const char* kFeedrate = "feedrate [mm/s]";
+
+std::string title_of(int number, const std::string& program, const std::string& what) {
+  return fmt::format("Fig. {} (Wang & Yau): {}, {}", number, program, what);
+}
+
+/// A panel of a column over time.
+Panel over_time(std::string caption, std::string y_label, const std::string& data,
+                std::string_view column, int style, int height) {
+  return {std::move(caption),
+          kTime,
+          std::move(y_label),
+          "",
+          fmt::format("'{}.csv' using 't_s':'{}' with lines linestyle {}", data, column, style),
+          height};
+}
+
+std::string feedrate_range(double feedrate_mm_per_min) {
+  return fmt::format("  set yrange [0:{:g}]\n", 1.12 * feedrate_mm_per_min / 60.0);
+}
+
+/// Figs. 12, 13.
+Expected<void> add_contour(Album& album, int number, const Answer& answer) {
+  const std::string& program = answer.published.program;
+  const std::string name = fmt::format("fig{}_{}", number, program);
+  const auto table = album.copy_data(
+      answer, name,
+      std::array<std::string_view, 4>{"t_s", "x_cmd_mm", "y_cmd_mm", "feedrate_mm_per_s"});
+  if (!table) {
+    return tl::unexpected(table.error());
+  }
+  return album.add(name, title_of(number, program, "contour, feedrate"),
+                   contour_panels(*table, name, answer.published.feedrate_mm_per_min / 60.0));
+}
+
+/// Figs. 14, 15.
+Expected<void> add_feedrates(Album& album, int number, const std::string& program,
+                             const Variant& variant) {
+  const std::string name = fmt::format("fig{}_{}", number, program);
+  std::vector<Panel> panels;
+  for (const double feedrate : {3000.0, 2000.0, 1000.0}) {
+    const Answer* answer = find_answer(variant, program, "nurbs", feedrate);
+    if (answer == nullptr) {
+      continue;
+    }
+    const std::string data = fmt::format("{}_{:.0f}", name, feedrate);
+    const auto table =
+        album.copy_data(*answer, data, std::array<std::string_view, 2>{"t_s", "feedrate_mm_per_s"});
+    if (!table) {
+      return tl::unexpected(table.error());
+    }
+    panels.push_back(
+        over_time(fmt::format("({}) {:.0f},000 mm/min", "abc"[panels.size()], feedrate / 1000.0),
+                  kFeedrate, data, "feedrate_mm_per_s", 1, 230));
+    panels.back().settings = feedrate_range(feedrate);
+  }
+  return album.add(name, title_of(number, program, "feedrate profiles"), panels);
+}
+
+/// Figs. 16, 17.
+Expected<void> add_errors(Album& album, int number, const Answer& answer) {
+  const std::string& program = answer.published.program;
+  const std::string name = fmt::format("fig{}_{}", number, program);
+  const auto table =
+      album.copy_data(answer, name,
+                      std::array<std::string_view, 4>{
+                          "t_s", "contour_error_um", "x_tracking_error_um", "y_tracking_error_um"});
+  if (!table) {
+    return tl::unexpected(table.error());
+  }
+  std::vector<Panel> panels{
+      over_time("(a) contour errors, NURBS at 3,000 mm/min", "contour error [µm]", name,
+                "contour_error_um", 1, 250),
+      over_time("(b) tracking errors, X axis", "error of X [µm]", name, "x_tracking_error_um", 2,
+                250),
+      over_time("      Y axis", "error of Y [µm]", name, "y_tracking_error_um", 3, 250)};
+  panels[0].settings = "  set yrange [0:*]\n";
+  return album.add(name, title_of(number, program, "measured errors"), panels);
+}
+
+/// Figs. 18, 19.
+Expected<void> add_bezier(Album& album, int number, const Answer& answer) {
+  const std::string& program = answer.published.program;
+  const std::string name = fmt::format("fig{}_{}", number, program);
+  const auto table = album.copy_data(
+      answer, name,
+      std::array<std::string_view, 3>{"t_s", "feedrate_mm_per_s", "contour_error_um"});
+  if (!table) {
+    return tl::unexpected(table.error());
+  }
+  std::vector<Panel> panels{
+      over_time("(a) feedrate commands, 3,000 mm/min", kFeedrate, name, "feedrate_mm_per_s", 1,
+                270),
+      over_time("(b) contour errors", "contour error [µm]", name, "contour_error_um", 1, 270)};
+  panels[0].settings = feedrate_range(answer.published.feedrate_mm_per_min);
+  panels[1].settings = "  set yrange [0:*]\n";
+  return album.add(name, title_of(number, program, "Fast Bezier"), panels);
+}
+
+Expected<void> add_program(Album& album, const Variant& variant, const std::string& program,
+                           int first) {
+  Expected<void> result;
+  const Answer* nurbs = find_answer(variant, program, "nurbs", 3000.0);
+  const Answer* bezier = find_answer(variant, program, "bezier", 3000.0);
+  if (nurbs != nullptr) {
+    result = add_contour(album, first, *nurbs)
+                 .and_then([&] { return add_feedrates(album, first + 2, program, variant); })
+                 .and_then([&] { return add_errors(album, first + 4, *nurbs); });
+  }
+  if (result && bezier != nullptr) {
+    result = add_bezier(album, first + 6, *bezier);
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<std::vector<Picture>> draw_figures(const Reproduction& reproduction,
+                                            const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) {
+    return file_error(folder, "make this folder", code.value());
+  }
+  Album album(folder);
+  auto added = add_program(album, reproduction.as_published(), "oxalis", 12).and_then([&] {
+    return add_program(album, reproduction.as_published(), "dolphin", 13);
+  });
+  if (!added) {
+    return tl::unexpected(std::move(added.error()));
+  }
+  auto pictures = album.draw();
+  if (pictures) {
+    std::ranges::sort(*pictures, {}, &Picture::name);
+  }
+  return pictures;
+}
+
+}  // namespace twin::reproduce
