@@ -29,7 +29,6 @@ class PlannedList final : public interpolator::SegmentSource {
 
 Expected<std::vector<interpolator::SetPoint>> plan_set_points(const std::filesystem::path& program,
                                                               const config::MachineFile& machine,
-                                                              bool fits_curves,
                                                               std::optional<double> feedrate) {
   gcode::ReaderOptions options;
   options.feedrate = feedrate;
@@ -39,14 +38,14 @@ Expected<std::vector<interpolator::SetPoint>> plan_set_points(const std::filesys
   }
   PlannedList list;
   const auto figures =
-      runtime::plan_program(*reader, machine, fits_curves, [&](feedrate::PlannedSegment&& planned) {
+      runtime::plan_program(*reader, machine, [&](feedrate::PlannedSegment&& planned) {
         list.push(std::move(planned));
         return true;
       });
   if (!figures) {
     return tl::unexpected(figures.error());
   }
-  interpolator::Interpolator interpolator(list, machine.period);
+  interpolator::Interpolator interpolator(list, machine.period, machine.interpolation);
   std::vector<interpolator::SetPoint> points;
   interpolator::SetPoint point;
   while (interpolator.step(point) == interpolator::Status::kMoving) {

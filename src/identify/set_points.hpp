@@ -13,9 +13,9 @@ namespace twin::identify {
 /// The set points of a program, one per interpolation period, as a run has them.
 ///
 /// They do not depend on the table, so one plan serves any number of simulations.
-/// @param fits_curves  false: the blocks as they are  @param feedrate  replaces the F words [mm/s]
+/// @param feedrate  replaces the F words [mm/s]
 Expected<std::vector<interpolator::SetPoint>> plan_set_points(
     const std::filesystem::path& program, const config::MachineFile& machine,
-    bool fits_curves = true, std::optional<double> feedrate = std::nullopt);
+    std::optional<double> feedrate = std::nullopt);
 
 }  // namespace twin::identify
