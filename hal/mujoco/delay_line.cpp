@@ -1,12 +1,30 @@
 #include "hal/mujoco/delay_line.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 namespace twin::hal {
+namespace {
 
-DelayLine::DelayLine(std::size_t steps) : values_(steps, 0.0) {}
+constexpr double kWholeTolerance = 1e-9;  // how far from whole a count of steps may be [steps]
 
-double DelayLine::step(double value) noexcept {
+std::size_t whole_part(double steps) {
+  assert(steps >= 0.0);
+  return static_cast<std::size_t>(std::floor(steps + kWholeTolerance));
+}
+
+}  // namespace
+
+DelayLine::DelayLine(double steps)
+    : values_(whole_part(steps), 0.0),
+      fraction_(std::max(steps - static_cast<double>(values_.size()), 0.0)) {
+  if (fraction_ < kWholeTolerance) {
+    fraction_ = 0.0;
+  }
+}
+
+double DelayLine::whole_step(double value) noexcept {
   if (values_.empty()) {
     return value;
   }
@@ -16,6 +34,16 @@ double DelayLine::step(double value) noexcept {
   return delayed;
 }
 
-void DelayLine::clear() noexcept { std::fill(values_.begin(), values_.end(), 0.0); }
+double DelayLine::step(double value) noexcept {
+  const double delayed = whole_step(value);
+  const double mean = delayed + fraction_ * (last_ - delayed);
+  last_ = delayed;
+  return mean;
+}
+
+void DelayLine::clear() noexcept {
+  std::fill(values_.begin(), values_.end(), 0.0);
+  last_ = 0.0;
+}
 
 }  // namespace twin::hal

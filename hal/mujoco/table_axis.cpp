@@ -11,16 +11,12 @@ constexpr double kStopGap = 5.0;           // behind the switch [mm]
 constexpr double kStopStiffness = 1000.0;  // [N/mm]
 constexpr double kStopDamping = 5.0;       // [N s/mm]
 
-std::size_t steps_of_delay(double delay, double step) {
-  return static_cast<std::size_t>(std::llround(delay / step));
-}
-
 }  // namespace
 
 TableAxis::TableAxis(const AxisParams& params, double step)
     : travel_(params.travel),
       dac_(params.dac_bits),
-      delay_(steps_of_delay(params.drive.output_delay, step)),
+      delay_(params.drive.output_delay / step),
       drive_(params.drive, params.motor, params.total_inertia(), step),
       friction_(params.friction, step),
       encoder_(params.encoder) {}

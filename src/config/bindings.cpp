@@ -36,6 +36,14 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
       {section, "corner_error", "mm", &p.corner_error, 1e-6, 10.0, "corner error, Eqs. 1 and 16"});
   list.push_back({section, "chord_error", "mm", &s.chord_error, 1e-6, 10.0,
                   "chord tolerance; a curve's distance from the polygon"});
+  list.push_back(
+      {section, "feedrate_rule", "",
+       choice(p.feedrate_rule, {"auto", "constant", "chord_error", "servo_model", "contact_speed"}),
+       0.0, 0.0, "what limits the feedrate on arcs and curves"});
+  list.push_back({section, "tool_radius", "mm", &p.tool_radius, 0.0, 1e3,
+                  "tool radius; for contact_speed only"});
+  list.push_back({section, "tool_side", "", choice(p.tool_side, {"left", "right"}), 0.0, 0.0,
+                  "side of the surface on which the tool is, G41 or G42; for contact_speed only"});
   list.push_back({section, "min_segments", "", &s.min_segments, 2.0, 1e3,
                   "fewest blocks fitted into one curve"});
   list.push_back(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/vec.hpp"
 
 namespace twin {
@@ -14,14 +16,30 @@ struct Limits {
   Vec3 travel_max{200.0, 200.0, 60.0};     ///< upper ends of travel (x, y, z) [mm]
 };
 
+/// What limits the feedrate on arcs and curves; feedrate/feedrate_rule.hpp says how each does.
+enum class FeedrateRule : std::uint8_t {
+  kAuto,          ///< the servo model; constant on Bezier pieces
+  kConstant,      ///< the programmed feedrate everywhere
+  kChordError,    ///< the chord of a period stays within the chord tolerance
+  kServoModel,    ///< the contouring error of the servo model stays within its tolerance
+  kContactSpeed,  ///< the tool's point of contact moves at the programmed feedrate
+};
+
+/// Side of the workpiece's surface on which the tool is, seen along the path: G41, G42.
+enum class ToolSide : std::uint8_t { kLeft, kRight };
+
 /// The first-order servo model that the planner believes in (Eqs. 1, 4, 16 of the paper).
 ///
 /// These are the planning gains; the loop that runs has servo gains of its own (servo::Gains).
+/// With it go the rules by which the feedrate is planned.
 struct PlanningModel {
   double kp = 207.207;            ///< position gain Kp [1/s]
   double kf = 0.34;               ///< velocity feedforward gain Kf, 0 <= Kf < 1 [-]
   double circular_error = 0.005;  ///< circular contouring error eps_ss of Eq. 4 [mm]
   double corner_error = 0.01;     ///< corner error eps_max of Eqs. 1, 16 [mm]
+  FeedrateRule feedrate_rule = FeedrateRule::kAuto;
+  double tool_radius = 0.0;              ///< for kContactSpeed [mm]
+  ToolSide tool_side = ToolSide::kLeft;  ///< for kContactSpeed
 };
 
 }  // namespace twin

@@ -14,11 +14,11 @@ constexpr double kPlaceRounding = 1e-9;  // [mm]
 
 }  // namespace
 
-LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, int look_ahead,
+LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const PathSettings& path,
                      double period, Sink sink)
     : limits_(limits),
-      model_(model),
-      look_ahead_(static_cast<std::size_t>(std::max(look_ahead, 2))),
+      rules_(limits, model, path, period),
+      look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
       sink_(std::move(sink)),
       ramp_{limits.acceleration, limits.jerk},
@@ -29,7 +29,7 @@ void LookAhead::push(path::Segment&& segment) {
   if (!window_.empty()) {
     junctions_.append(window_.back(), segment, length_, zones_);
   }
-  append_segment_limits(segment, length_, model_, limits_, zones_);
+  append_segment_limits(segment, length_, rules_, zones_);
   length_ += segment.length;
   window_.push_back(std::move(segment));
   if (window_.size() >= look_ahead_) {

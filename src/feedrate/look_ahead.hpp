@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/limits.hpp"
+#include "core/path_settings.hpp"
 #include "feedrate/envelope.hpp"
+#include "feedrate/feedrate_rule.hpp"
 #include "feedrate/junction_limits.hpp"
 #include "feedrate/planned_segment.hpp"
 
@@ -32,10 +34,10 @@ class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;
 
-  /// @param look_ahead  segments in the window, >= 2
-  /// @param period      interpolation period, for the corner feedrates [s]
-  LookAhead(const Limits& limits, const PlanningModel& model, int look_ahead, double period,
-            Sink sink);
+  /// @param path    path.look_ahead segments, at least 2, are in the window
+  /// @param period  interpolation period, for the feedrates of corners and chords [s]
+  LookAhead(const Limits& limits, const PlanningModel& model, const PathSettings& path,
+            double period, Sink sink);
 
   void push(path::Segment&& segment);
   /// No more segments follow: the path ends at rest.
@@ -57,7 +59,7 @@ class LookAhead {
   void forget(double begin, std::size_t phases, std::size_t zones);
 
   Limits limits_;
-  PlanningModel model_;
+  FeedrateRules rules_;
   std::size_t look_ahead_;
   double period_;
   Sink sink_;

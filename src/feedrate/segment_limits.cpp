@@ -2,26 +2,24 @@
 
 #include <algorithm>
 
-#include "feedrate/curvature_limit.hpp"
-
 namespace twin::feedrate {
 namespace {
 
 constexpr double kSameLimit = 1.01;  // ratio of limits that share a zone
+constexpr std::size_t kArcSamples = 181;
 
-void append_curve_limits(const path::FittedCurve& curve, double feedrate, double s0,
-                         const PlanningModel& model, const Limits& limits,
-                         std::vector<LimitZone>& zones) {
-  const auto limit_of = [&](const nurbs::CurvatureSample& sample) {
-    return curvature_feedrate(sample.curvature, feedrate, model, limits);
-  };
+/// Zones between successive samples.
+/// @param place  s of sample i, from the segment's start [mm]
+/// @param limit  limit at sample i [mm/s]
+template <class PlaceOf, class LimitOf>
+void append_sampled(std::size_t count, double s0, const PlaceOf& place, const LimitOf& limit_of,
+                    std::vector<LimitZone>& zones) {
   const std::size_t first = zones.size();
   double highest = 0.0;  // of the limits in the zone under way
-  double limit = limit_of(curve.curvature.front());
-  for (std::size_t i = 1; i < curve.curvature.size(); ++i) {
-    const double next = limit_of(curve.curvature[i]);
-    const LimitZone zone{s0 + curve.curvature[i - 1].s, s0 + curve.curvature[i].s,
-                         std::min(limit, next)};
+  double limit = limit_of(0);
+  for (std::size_t i = 1; i < count; ++i) {
+    const double next = limit_of(i);
+    const LimitZone zone{s0 + place(i - 1), s0 + place(i), std::min(limit, next)};
     limit = next;
     if (zones.size() > first) {
       LimitZone& last = zones.back();
@@ -38,17 +36,55 @@ void append_curve_limits(const path::FittedCurve& curve, double feedrate, double
   }
 }
 
+void append_curve_limits(const path::FittedCurve& curve, double feedrate, double s0,
+                         const FeedrateRules& rules, std::vector<LimitZone>& zones) {
+  const bool needs_turning = rules.needs_turning();
+  append_sampled(
+      curve.curvature.size(), s0, [&](std::size_t i) { return curve.curvature[i].s; },
+      [&](std::size_t i) {
+        const nurbs::CurvatureSample& sample = curve.curvature[i];
+        const Place at = needs_turning
+                             ? place_from(path::point_from(curve.curve.derivatives(sample.u)))
+                             : Place{sample.curvature};
+        return rules.limit_at(at, feedrate, true);
+      },
+      zones);
+}
+
+void append_tilted_arc_limits(const path::Arc& arc, double feedrate, double s0,
+                              const FeedrateRules& rules, std::vector<LimitZone>& zones) {
+  const auto place = [&](std::size_t i) {
+    return arc.length * static_cast<double>(i) / static_cast<double>(kArcSamples - 1);
+  };
+  append_sampled(
+      kArcSamples, s0, place,
+      [&](std::size_t i) {
+        return rules.limit_at(place_from(path::point_at(arc, place(i))), feedrate, false);
+      },
+      zones);
+}
+
+bool is_tilted(const path::Arc& arc) {
+  return arc.geometry.e1.z() != 0.0 || arc.geometry.e2.z() != 0.0;
+}
+
 }  // namespace
 
-void append_segment_limits(const path::Segment& segment, double s0, const PlanningModel& model,
-                           const Limits& limits, std::vector<LimitZone>& zones) {
+void append_segment_limits(const path::Segment& segment, double s0, const FeedrateRules& rules,
+                           std::vector<LimitZone>& zones) {
   if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
-    append_curve_limits(*curve, segment.feedrate, s0, model, limits, zones);
+    append_curve_limits(*curve, segment.feedrate, s0, rules, zones);
     return;
   }
-  const double curvature = std::max(segment.begin.curvature.norm(), segment.end.curvature.norm());
-  const double limit = curvature_feedrate(curvature, segment.feedrate, model, limits);
-  zones.push_back({s0, s0 + segment.length, limit});
+  const auto* arc = std::get_if<path::Arc>(&segment.geometry);
+  if (arc != nullptr && rules.needs_turning() && is_tilted(*arc)) {
+    append_tilted_arc_limits(*arc, segment.feedrate, s0, rules, zones);
+    return;
+  }
+  const path::PathPoint& tight =
+      segment.begin.curvature.norm() < segment.end.curvature.norm() ? segment.end : segment.begin;
+  zones.push_back(
+      {s0, s0 + segment.length, rules.limit_at(place_from(tight), segment.feedrate, false)});
 }
 
 double curvature_near_end(const path::Segment& segment, bool at_end, double distance) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/limits.hpp"
+#include "feedrate/feedrate_rule.hpp"
 #include "feedrate/limit_zone.hpp"
 #include "path/segment.hpp"
 
@@ -12,11 +12,12 @@ namespace twin::feedrate {
 /// over the whole curve.
 ///
 /// A line has one zone, an arc one, a curve as many as its curvature needs: neighbouring zones
-/// whose limits differ by less than 1 % become one, with the lower limit.
+/// whose limits differ by less than 1 % become one, with the lower limit. So has an arc that is not
+/// in the XY plane, where the rule depends on the heading.
 ///
 /// @param s0  place of the segment's start [mm]
-void append_segment_limits(const path::Segment& segment, double s0, const PlanningModel& model,
-                           const Limits& limits, std::vector<LimitZone>& zones);
+void append_segment_limits(const path::Segment& segment, double s0, const FeedrateRules& rules,
+                           std::vector<LimitZone>& zones);
 
 /// Largest curvature of a segment near one of its ends, within a distance [1/mm].
 double curvature_near_end(const path::Segment& segment, bool at_end, double distance);

@@ -32,8 +32,8 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
   PlanFigures figures;
   bool goes_on = true;
-  feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path.look_ahead,
-                                 machine.period, [&](feedrate::PlannedSegment&& planned) {
+  feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path, machine.period,
+                                 [&](feedrate::PlannedSegment&& planned) {
                                    count(planned, figures);
                                    goes_on = goes_on && sink(std::move(planned));
                                  });

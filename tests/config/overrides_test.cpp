@@ -45,6 +45,17 @@ TEST(Overrides, TakeEveryKindOfValue) {
   EXPECT_DOUBLE_EQ(machine.servo[hal::kY].kp, servo::Gains{}.kp);
 }
 
+TEST(Overrides, ChooseAFeedrateRuleByName) {
+  MachineFile machine;
+  ASSERT_TRUE(apply_override(machine, "planning.feedrate_rule=contact_speed"));
+  EXPECT_EQ(machine.planning.feedrate_rule, FeedrateRule::kContactSpeed);
+  ASSERT_TRUE(apply_override(machine, "planning.tool_radius=2.5"));
+  EXPECT_DOUBLE_EQ(machine.planning.tool_radius, 2.5);
+  ASSERT_TRUE(apply_override(machine, "planning.tool_side=right"));
+  EXPECT_EQ(machine.planning.tool_side, ToolSide::kRight);
+  EXPECT_THAT(refusal("planning.feedrate_rule=servo"), HasSubstr("constant, chord_error"));
+}
+
 TEST(Overrides, TyposSuggestTheNearestKey) {
   EXPECT_THAT(refusal("limits.jrek=1"),
               HasSubstr("unknown key limits.jrek; did you mean limits.jerk?"));

@@ -63,7 +63,9 @@ TEST(LookAhead, TheSameSegmentsGiveTheSamePhasesWhenever) {
   // One plan watched while it comes, another taken at the end.
   const auto segments = path::testing::build(path::testing::polyline(pieces_of_line(50.0, 3000)));
   std::vector<double> first;
-  LookAhead look_ahead({}, {}, 20, 1e-3, [&](PlannedSegment&& planned) {
+  PathSettings path;
+  path.look_ahead = 20;
+  LookAhead look_ahead({}, {}, path, 1e-3, [&](PlannedSegment&& planned) {
     for (const Phase& phase : planned.phases) {
       first.insert(first.end(), {phase.duration, phase.s, phase.v, phase.a, phase.j});
     }

@@ -63,7 +63,9 @@ void expect_whole_segment(const PlannedSegment& planned, const Limits& limits, P
 
 Plan plan(const std::vector<path::Segment>& segments, const PlanSettings& settings) {
   Plan result;
-  LookAhead look_ahead(settings.limits, {}, settings.look_ahead, settings.period,
+  PathSettings path = settings.path;
+  path.look_ahead = settings.look_ahead;
+  LookAhead look_ahead(settings.limits, settings.model, path, settings.period,
                        [&](PlannedSegment&& planned) {
                          for (const Phase& phase : planned.phases) {
                            result.time += phase.duration;
@@ -79,10 +81,11 @@ Plan plan(const std::vector<path::Segment>& segments, const PlanSettings& settin
 }
 
 Plan plan(const std::vector<gcode::Block>& blocks, const PlanSettings& settings) {
-  return plan(path::testing::build(blocks, {}, {}, settings.limits), settings);
+  return plan(path::testing::build(blocks, settings.path, settings.model, settings.limits),
+              settings);
 }
 
-void expect_whole(const Plan& plan, const Limits& limits) {
+void expect_whole(const Plan& plan, const Limits& limits, bool keeps_normal_acceleration) {
   PathMotion at{0.0, 0.0, 0.0};
   std::int64_t index = 0;
   for (const PlannedSegment& planned : plan.segments) {
@@ -99,7 +102,9 @@ void expect_whole(const Plan& plan, const Limits& limits) {
     }
     const MotionProfile profile(planned.phases);
     ASSERT_NO_FATAL_FAILURE(expect_under_zones(planned, profile));
-    ASSERT_NO_FATAL_FAILURE(expect_normal_acceleration(planned, profile, limits));
+    if (keeps_normal_acceleration) {
+      ASSERT_NO_FATAL_FAILURE(expect_normal_acceleration(planned, profile, limits));
+    }
   }
   ASSERT_NEAR(at.v, 0.0, kFeedrate);
   ASSERT_NEAR(at.a, 0.0, 1e-5 * limits.acceleration);

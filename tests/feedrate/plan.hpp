@@ -18,6 +18,8 @@ struct PlanSettings {
   int look_ahead = 200;
   double period = 1e-3;  ///< [s]
   Limits limits;
+  PlanningModel model;
+  PathSettings path;  ///< all but its look-ahead
 };
 
 Plan plan(const std::vector<path::Segment>& segments, const PlanSettings& settings = {});
@@ -25,7 +27,8 @@ Plan plan(const std::vector<path::Segment>& segments, const PlanSettings& settin
 Plan plan(const std::vector<gcode::Block>& blocks, const PlanSettings& settings = {});
 
 /// Fails unless the phases cover every segment exactly, join in feedrate and acceleration, keep A,
-/// J, the zones and the normal acceleration, rest where they must and dwell as long as they must.
-void expect_whole(const Plan& plan, const Limits& limits);
+/// J, the zones and (unless the rule is `constant`) the normal acceleration, rest where they must
+/// and dwell as long as they must.
+void expect_whole(const Plan& plan, const Limits& limits, bool keeps_normal_acceleration = true);
 
 }  // namespace twin::feedrate::testing

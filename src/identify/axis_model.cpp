@@ -1,0 +1,122 @@
+#include "identify/axis_model.hpp"
+
+#include <cmath>
+
+#include "core/units.hpp"
+#include "hal/mujoco/table_settings.hpp"
+#include "servo/axis_scaling.hpp"
+
+namespace twin::identify {
+namespace {
+
+constexpr double kFarAway = 1e5;  // beyond any machine; counts stay inside an integer [mm]
+
+double mm_per_s_per_volt(const hal::AxisParams& axis) {
+  return axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead;
+}
+
+}  // namespace
+
+AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis) {
+  return {machine.table.axis[axis], machine.servo[axis], machine.period,
+          machine.table.physics_step};
+}
+
+AxisModel::AxisModel(const AxisSetup& setup, double start)
+    : axis_(setup.axis, setup.period / hal::steps_per_period(setup.period, setup.physics_step)),
+      servo_(setup.servo, mm_per_s_per_volt(setup.axis), setup.period),
+      mm_per_count_(setup.axis.encoder.mm_per_count),
+      rad_per_mm_(1.0 / setup.axis.mm_per_rad()),
+      force_per_torque_(1.0 / units::m_from_mm(setup.axis.mm_per_rad())),
+      rate_per_force_(0.0),
+      step_(0.0),
+      steps_(hal::steps_per_period(setup.period, setup.physics_step)),
+      position_(start) {
+  step_ = setup.period / steps_;
+  rate_per_force_ = units::mm_from_m(step_ / (setup.axis.moving_mass + setup.axis.rotor_mass()));
+  axis_.encoder().zero(0.0);
+}
+
+void AxisModel::advance() noexcept {
+  if (has_failed_) {
+    return;
+  }
+  for (int i = 0; i < steps_; ++i) {
+    const double time = static_cast<double>(steps_done_++) * step_;
+    const hal::AxisForces forces =
+        axis_.step({position_, velocity_, velocity_ * rad_per_mm_}, time);
+    velocity_ += rate_per_force_ * (forces.slide + forces.torque * force_per_torque_);
+    position_ += step_ * velocity_;
+  }
+  if (!(std::abs(position_) < kFarAway)) {
+    has_failed_ = true;
+    position_ = velocity_ = 0.0;
+  }
+}
+
+void AxisModel::write(double volts) noexcept {
+  if (std::isfinite(volts)) {
+    axis_.command(volts, true);
+  }
+}
+
+AxisRow AxisModel::follow(const servo::Reference& reference) noexcept {
+  advance();
+  AxisRow row;
+  row.table = position_;
+  row.encoder = servo::position_from_counts(axis_.encoder().counts(position_), mm_per_count_);
+  row.volts = servo_.update(reference, row.encoder);
+  write(row.volts);
+  return row;
+}
+
+AxisRow AxisModel::drive(double volts) noexcept {
+  advance();
+  AxisRow row;
+  row.table = position_;
+  row.encoder = servo::position_from_counts(axis_.encoder().counts(position_), mm_per_count_);
+  row.volts = volts;
+  write(volts);
+  return row;
+}
+
+void AxisModel::settle(double position) noexcept {
+  const double period = step_ * steps_;
+  const long periods = std::lround(kSettleTime / period);
+  for (long i = 0; i < periods; ++i) {
+    follow({position, 0.0, 0.0});
+  }
+}
+
+std::vector<AxisRow> simulate(const AxisSetup& setup, std::span<const servo::Reference> set_points,
+                              bool* has_failed) {
+  std::vector<AxisRow> rows;
+  if (set_points.empty()) {
+    return rows;
+  }
+  rows.reserve(set_points.size());
+  AxisModel model(setup, set_points.front().position);
+  model.settle(set_points.front().position);
+  for (const servo::Reference& set_point : set_points) {
+    rows.push_back(model.follow(set_point));
+  }
+  if (has_failed != nullptr) {
+    *has_failed = model.has_failed();
+  }
+  return rows;
+}
+
+std::vector<servo::Reference> differentiate(std::span<const double> positions, double period) {
+  std::vector<servo::Reference> result(positions.size());
+  const std::size_t count = positions.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double before = positions[k == 0 ? 0 : k - 1];
+    const double here = positions[k];
+    const double after = positions[k + 1 == count ? k : k + 1];
+    result[k] = {here, (after - before) / (2.0 * period),
+                 (after - 2.0 * here + before) / (period * period)};
+  }
+  return result;
+}
+
+}  // namespace twin::identify
