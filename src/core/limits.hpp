@@ -33,8 +33,8 @@ enum class ToolSide : std::uint8_t { kLeft, kRight };
 /// These are the planning gains; the loop that runs has servo gains of its own (servo::Gains).
 /// With it go the rules by which the feedrate is planned.
 struct PlanningModel {
-  double kp = 207.207;            ///< position gain Kp [1/s]
-  double kf = 0.34;               ///< velocity feedforward gain Kf, 0 <= Kf < 1 [-]
+  double kp = 282.555;            ///< position gain Kp [1/s]
+  double kf = 0.1;                ///< velocity feedforward gain Kf, 0 <= Kf < 1 [-]
   double circular_error = 0.005;  ///< circular contouring error eps_ss of Eq. 4 [mm]
   double corner_error = 0.01;     ///< corner error eps_max of Eqs. 1, 16 [mm]
   FeedrateRule feedrate_rule = FeedrateRule::kAuto;
