@@ -54,7 +54,8 @@ Expected<circular::MeasuredTurn> run_sense(const CircleTest& test, circular::Sen
       !written) {
     return tl::unexpected(written.error());
   }
-  Progress progress(name, options.quiet);
+  Progress progress(sense == circular::Sense::kClockwise ? "clockwise" : "counter-clockwise",
+                    options.quiet);
   request.progress = progress.callback();
   const auto result = runtime::run_program(request);
   if (!result) {

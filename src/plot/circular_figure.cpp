@@ -70,6 +70,9 @@ unset tics
 unset grid
 set size ratio -1
 set angles degrees
+set parametric
+set trange [0 : 360]
+set samples 361
 outer = base + rings
 set xrange [-outer - 2.85 : outer + 2.85]
 set yrange [-outer - 1.5 : outer + 1.5]
@@ -84,12 +87,6 @@ do for [a = 0 : 330 : 30] {
 }
 set label "+X\n0°" at outer + 0.3, 0 left
 set label '180°' at -outer - 0.3, 0 right
-do for [k = -rings : rings] {
-  set object circle at 0, 0 size base + k arc [0 : 360] back fillstyle empty border rgb '#D0D0D0' \
-    linewidth 1
-}
-set object circle at 0, 0 size base arc [0 : 360] front fillstyle empty border rgb '#000000' \
-  linewidth 1.1
 set style textbox opaque noborder fillcolor rgb '#FFFFFF' margins 0.4, 0.3
 do for [k = -4 : 4 : 2] {
   error_name = k == 0 ? '0' : k == 4 ? sprintf('%+g µm', k * division) : sprintf('%+g', k * division)
@@ -98,10 +95,13 @@ do for [k = -4 : 4 : 2] {
 )";
 
 constexpr std::string_view kDrawing =
-    R"(  plot 'circular_test_ccw.csv' using (x($1, $2)):(y($1, $2)) with lines \
+    R"(  plot for [k = -rings : rings] (base + k) * cos(t), (base + k) * sin(t) with lines \
+      linecolor rgb '#D0D0D0' linewidth 1, \
+    'circular_test_ccw.csv' using (x($1, $2)):(y($1, $2)) with lines \
       linecolor rgb '#0072B2' linewidth 1.1, \
     'circular_test_cw.csv' using (x($1, $2)):(y($1, $2)) with lines \
-      linecolor rgb '#D55E00' linewidth 1.1
+      linecolor rgb '#D55E00' linewidth 1.1, \
+    base * cos(t), base * sin(t) with lines linecolor rgb '#000000' linewidth 1.1
 )";
 
 /// The page is made for a column of 8 cm: letters of 1/40 of its width are 2 mm high.
@@ -131,7 +131,7 @@ Script circular_script(const CircularFigureInput& input, double division) {
       "has_cairo = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0\n"
       "do for [kind in 'png svg'] {\n"
       "  if (kind eq 'svg') {\n"
-      "    set terminal svg size 600,690 font 'DejaVu Sans,15' background '#FFFFFF'\n"
+      "    set terminal svg size 600,690 font 'DejaVu Sans,19' background '#FFFFFF'\n"
       "  } else { if (has_cairo) {\n"
       "    set terminal pngcairo size 1200,1380 font 'DejaVu Sans,31' linewidth 2\n"
       "  } else {\n"
