@@ -21,8 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The turn in both senses, counter-clockwise first.
-using Turns = std::array<circular::MeasuredTurn, 2>;
+/// One sense of the test.
+struct SenseRun {
+  circular::MeasuredTurn turn;
+  std::string interpolator;
+};
+/// Counter-clockwise first.
+using BothRuns = std::array<SenseRun, 2>;
 
 /// Makes the folder; no result of an earlier test may pass for one of this.
 Expected<void> prepare_folder(const fs::path& folder) {
@@ -38,8 +43,8 @@ Expected<void> prepare_folder(const fs::path& folder) {
 }
 
 /// Runs one sense with a machine of its own and reads what it measured.
-Expected<circular::MeasuredTurn> run_sense(const CircleTest& test, circular::Sense sense,
-                                           const Options& options, const std::atomic<bool>& stop) {
+Expected<SenseRun> run_sense(const CircleTest& test, circular::Sense sense, const Options& options,
+                             const std::atomic<bool>& stop) {
   const std::string name(circular::short_name(sense));
   const auto hal = make_machine(options.hal, test.machine);
   runtime::RunRequest request;
@@ -68,7 +73,11 @@ Expected<circular::MeasuredTurn> run_sense(const CircleTest& test, circular::Sen
     return tl::unexpected(*result->failure);
   }
   remove_stale_results(request.directory);
-  return circular::read_measured_turn(request.directory / "trace.csv");
+  auto turn = circular::read_measured_turn(request.directory / "trace.csv");
+  if (!turn) {
+    return tl::unexpected(turn.error());
+  }
+  return SenseRun{std::move(*turn), result->summary.interpolator};
 }
 
 circular::Figures figures_of(const circular::BothPaths& paths, const CircleTest& test,
@@ -82,17 +91,17 @@ circular::Figures figures_of(const circular::BothPaths& paths, const CircleTest&
   return figures;
 }
 
-circular::Report make_report(const CircleTest& test, const Turns& turns, const Options& options) {
+circular::Report make_report(const CircleTest& test, const BothRuns& runs, const Options& options) {
   circular::Report report;
   report.machine = test.machine.name;
   report.hal = options.hal;
-  report.interpolator = options.interpolator;
+  report.interpolator = runs[0].interpolator;
   report.period = test.machine.period;
   report.radius = test.radius;
   report.feedrate = test.feedrate;
-  report.reached = {turns[0].feedrate, turns[1].feedrate};
-  report.table = figures_of({turns[0].table, turns[1].table}, test, report.reached);
-  report.encoder = figures_of({turns[0].encoder, turns[1].encoder}, test, report.reached);
+  report.reached = {runs[0].turn.feedrate, runs[1].turn.feedrate};
+  report.table = figures_of({runs[0].turn.table, runs[1].turn.table}, test, report.reached);
+  report.encoder = figures_of({runs[0].turn.encoder, runs[1].turn.encoder}, test, report.reached);
   if (options.hal == "ideal") {
     report.no_prediction = "the ideal machine has no servo";
     return report;
@@ -108,7 +117,7 @@ circular::Report make_report(const CircleTest& test, const Turns& turns, const O
   return report;
 }
 
-Expected<void> write_picture(const CircleTest& test, const Turns& turns, const std::string& hal,
+Expected<void> write_picture(const CircleTest& test, const BothRuns& runs, const std::string& hal,
                              bool quiet) {
   Progress progress("plots", quiet);
   progress.show(0.0);
@@ -118,7 +127,7 @@ Expected<void> write_picture(const CircleTest& test, const Turns& turns, const s
                             units::mm_per_min_from_mm_per_s(test.feedrate));
   input.subtitle = fmt::format("{} ({}), position of the table", test.machine.name, hal);
   input.radius = test.radius;
-  input.path = {turns[0].table, turns[1].table};
+  input.path = {runs[0].turn.table, runs[1].turn.table};
   auto pictures = plot::write_circular_figure(input);
   if (!pictures) {
     return tl::unexpected(pictures.error());
@@ -136,15 +145,15 @@ Expected<void> circle_command(const Options& options, const std::atomic<bool>& s
   if (auto prepared = prepare_folder(test->folder); !prepared) {
     return prepared;
   }
-  Turns turns;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    auto turn = run_sense(*test, circular::kSenses[i], options, stop);
-    if (!turn) {
-      return tl::unexpected(turn.error());
+  BothRuns runs;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    auto run = run_sense(*test, circular::kSenses[i], options, stop);
+    if (!run) {
+      return tl::unexpected(run.error());
     }
-    turns[i] = std::move(*turn);
+    runs[i] = std::move(*run);
   }
-  const circular::Report report = make_report(*test, turns, options);
+  const circular::Report report = make_report(*test, runs, options);
   if (auto written = write_whole_file(test->folder / "circle.json", circular::to_json(report));
       !written) {
     return written;
@@ -153,7 +162,7 @@ Expected<void> circle_command(const Options& options, const std::atomic<bool>& s
     fmt::print("{}", circular::to_table(report));
   }
   if (!options.no_plots) {
-    if (auto drawn = write_picture(*test, turns, options.hal, options.quiet); !drawn) {
+    if (auto drawn = write_picture(*test, runs, options.hal, options.quiet); !drawn) {
       return drawn;
     }
   }
