@@ -40,6 +40,7 @@ using twin::cli::Options;
 struct Commands {
   CLI::App* run = nullptr;
   CLI::App* plan = nullptr;
+  CLI::App* circle = nullptr;
   CLI::App* check = nullptr;
   CLI::App* render = nullptr;
   CLI::App* reproduce = nullptr;
@@ -51,11 +52,7 @@ void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   twin::cli::add_planning_options(*run, options);
   twin::cli::add_result_options(*run, options);
   twin::cli::add_video_options(*run, options);
-  run->add_option("--hal", options.hal,
-                  "Machine: mujoco is the simulated table, ideal has position = set point")
-      ->check(CLI::IsMember({"mujoco", "ideal"}))
-      ->type_name("NAME")
-      ->capture_default_str();
+  twin::cli::add_hal_option(*run, options);
   run->add_flag("--realtime", options.realtime, "Keep to the wall clock");
 
   CLI::App* const plan =
@@ -64,6 +61,24 @@ void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   twin::cli::add_result_options(*plan, options);
   commands.run = run;
   commands.plan = plan;
+}
+
+void add_circle(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const circle = app.add_subcommand(
+      "circle", "Circular test after ISO 230-4: both senses, deviations, reversal spikes");
+  circle->add_option("--radius-mm", options.radius_mm, "Radius of the circle about X0 Y0")
+      ->type_name("R")
+      ->capture_default_str();
+  circle->add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min, "Feedrate [3000]")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("F");
+  twin::cli::add_machine_options(*circle, options);
+  twin::cli::add_hal_option(*circle, options);
+  circle->add_option("--out", options.out, "Folder of the results [renders/circle]")
+      ->type_name("DIR");
+  circle->add_flag("--no-plots", options.no_plots, "Write no figure");
+  circle->add_flag("--quiet", options.quiet, "Print errors only");
+  commands.circle = circle;
 }
 
 void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
@@ -127,6 +142,7 @@ void add_reproduce(CLI::App& app, Options& options, Commands& commands) {
 Commands add_commands(CLI::App& app, Options& options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
+  add_circle(app, options, commands);
   add_check_and_render(app, options, commands);
   add_reproduce(app, options, commands);
   return commands;
@@ -161,6 +177,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.plan->parsed()) {
     return report(plan_command(options, stop_requested));
+  }
+  if (commands.circle->parsed()) {
+    return report(circle_command(options, stop_requested));
   }
   if (commands.check->parsed()) {
     return report(check_command(options));

@@ -13,6 +13,15 @@ void add_planning_options(CLI::App& command, Options& options) {
       ->expected(1)
       ->type_name("PROGRAM.nc");
   command
+      .add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min,
+                  "Feedrate in place of the program's F words")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("F");
+  add_machine_options(command, options);
+}
+
+void add_machine_options(CLI::App& command, Options& options) {
+  command
       .add_option("--machine", options.machine, "Machine file: a file, or the name of one in mjcf")
       ->type_name("FILE.toml")
       ->capture_default_str();
@@ -24,16 +33,20 @@ void add_planning_options(CLI::App& command, Options& options) {
       ->take_all()
       ->expected(1);
   command
-      .add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min,
-                  "Feedrate in place of the program's F words")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->type_name("F");
-  command
       .add_option("--interpolator", options.interpolator,
                   "What runs of short blocks become: nurbs (C2 curves), bezier (Fast Bezier), "
                   "linear (nothing else) [of the machine file: nurbs]")
       ->check(CLI::IsMember({"nurbs", "bezier", "linear"}))
       ->type_name("NAME");
+}
+
+void add_hal_option(CLI::App& command, Options& options) {
+  command
+      .add_option("--hal", options.hal,
+                  "Machine: mujoco is the simulated table, ideal has position = set point")
+      ->check(CLI::IsMember({"mujoco", "ideal"}))
+      ->type_name("NAME")
+      ->capture_default_str();
 }
 
 void add_result_options(CLI::App& command, Options& options) {

@@ -18,6 +18,7 @@ struct Options {
   std::string hal = "mujoco";
   std::string interpolator;  ///< empty: that of the machine file
   std::optional<double> feedrate_mm_per_min;
+  double radius_mm = 20.0;            ///< of the circular test
   std::vector<std::string> settings;  ///< section.key=value
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
   std::string camera = "iso";
@@ -30,6 +31,10 @@ struct Options {
 
 /// Options that say what is planned: program, machine file, settings, feedrate, interpolator.
 void add_planning_options(CLI::App& command, Options& options);
+/// The part of them that is about the machine: --machine, --set, --interpolator.
+void add_machine_options(CLI::App& command, Options& options);
+/// --hal.
+void add_hal_option(CLI::App& command, Options& options);
 /// Options that say where results go and which.
 void add_result_options(CLI::App& command, Options& options);
 /// --video and --camera.
