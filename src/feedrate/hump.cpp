@@ -8,11 +8,13 @@ namespace {
 
 constexpr double kDistanceRounding =
     1e-9;  // [mm]; a ramp that is longer by this much is made steeper by it
+constexpr double kRootRounding = 1e-6;  // relative; spread over the ramps
 
 /// Peak v of a hump of length d without hold: ramp_distance(va, v) + ramp_distance(v, vb) = d.
 ///
 /// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap;
-/// regula falsi with bisection where it stalls (Illinois rule).
+/// regula falsi with bisection where it stalls (Illinois rule). Where it jumps over d, at the
+/// larger end feedrate, that is the result.
 double peak_without_hold(double va, double vb, double d, double cap,
                          const RampLimits& limits) noexcept {
   const auto excess = [&](double v) {
@@ -62,9 +64,11 @@ Hump make_hump(const Knot& a, const Knot& b, double cap, const RampLimits& limit
     hump.peak = peak_without_hold(a.v, b.v, d, hump.peak, limits);
     hump.up = ramp_distance(a.v, hump.peak, limits);
     hump.down = ramp_distance(hump.peak, b.v, limits);
-    const double scale = hump.up + hump.down > 0.0 ? d / (hump.up + hump.down) : 1.0;
-    hump.up *= scale;  // rounding of the root, spread over the ramps
-    hump.down *= scale;
+    const double ramps = hump.up + hump.down;
+    if (ramps > (1.0 - kRootRounding) * d) {  // less where the ramps' distance jumps: hold the rest
+      hump.up *= d / ramps;
+      hump.down *= d / ramps;
+    }
   }
   return hump;
 }
