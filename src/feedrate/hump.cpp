@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kDistanceRounding =
     1e-9;  // [mm]; a ramp that is longer by this much is made steeper by it
-constexpr double kRootRounding = 1e-6;  // relative; spread over the ramps
 
 /// Peak v of a hump of length d without hold: ramp_distance(va, v) + ramp_distance(v, vb) = d.
 ///
@@ -64,9 +63,12 @@ Hump make_hump(const Knot& a, const Knot& b, double cap, const RampLimits& limit
     hump.peak = peak_without_hold(a.v, b.v, d, hump.peak, limits);
     hump.up = ramp_distance(a.v, hump.peak, limits);
     hump.down = ramp_distance(hump.peak, b.v, limits);
+    // A higher peak is out of reach where even the smallest ramp is too long: the rest is a hold.
+    const bool is_level =
+        hump.peak == std::max(a.v, b.v) && least_ramp_time(limits) * hump.peak > 0.0;
     const double ramps = hump.up + hump.down;
-    if (ramps > (1.0 - kRootRounding) * d) {  // less where the ramps' distance jumps: hold the rest
-      hump.up *= d / ramps;
+    if (ramps > d || (ramps > 0.0 && !is_level)) {
+      hump.up *= d / ramps;  // rounding of the root, spread over the ramps
       hump.down *= d / ramps;
     }
   }

@@ -41,6 +41,10 @@ double ramp_time(double delta, const RampLimits& limits) noexcept {
   return by_profile(limits, [&](auto p) { return p.time(std::abs(delta), limits); });
 }
 
+double least_ramp_time(const RampLimits& limits) noexcept {
+  return limits.profile == AccelerationProfile::kFir ? FirRamp::filter_time(limits) : 0.0;
+}
+
 RampShape ramp_shape(double delta, const RampLimits& limits) noexcept {
   return by_profile(limits, [&](auto p) { return p.shape(std::abs(delta), limits); });
 }

@@ -12,6 +12,9 @@ namespace twin::feedrate {
 /// (v1 + v2) tau / 2.
 double ramp_time(double delta, const RampLimits& limits) noexcept;
 
+/// tau(D) for D -> 0 [s]: the ramp of the least change. Not 0 with fir: there tau jumps at 0.
+double least_ramp_time(const RampLimits& limits) noexcept;
+
 /// Its phases; delta of any sign but not 0.
 RampShape ramp_shape(double delta, const RampLimits& limits) noexcept;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/feedrate/motion_profile.hpp"
+#include "tests/feedrate/profiles.hpp"
 #include "tests/feedrate/s_curve.hpp"
 
 namespace twin::feedrate {
@@ -89,9 +90,10 @@ double stopping_time(const std::vector<LimitZone>& zones, const RampLimits& limi
 
 TEST(Envelope, FromRestToRestIsAlwaysFoundAndKeepsEveryLimit) {
   std::mt19937 random(1);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 30000; ++i) {
     const auto zones = random_zones(random);
-    const RampLimits limits = testing::random_limits(random);
+    RampLimits limits = testing::random_limits(random);
+    limits.profile = testing::kProfiles[static_cast<std::size_t>(i) % 3];
     Envelope envelope(limits);
     const Knot start{zones.front().begin, 0.0};
     const Knot end{zones.back().end, 0.0};
