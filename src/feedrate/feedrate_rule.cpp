@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "feedrate/chord_limit.hpp"
 #include "feedrate/contact_limit.hpp"
@@ -15,9 +16,9 @@ FeedrateRule chosen(FeedrateRule rule, FeedrateRule automatic) {
 
 }  // namespace
 
-FeedrateRules::FeedrateRules(const Limits& limits, const PlanningModel& model,
-                             const PathSettings& path, double period)
-    : limits_(limits),
+FeedrateRules::FeedrateRules(Limits limits, const PlanningModel& model, const PathSettings& path,
+                             double period)
+    : limits_(std::move(limits)),
       model_(model),
       on_curves_(chosen(model.feedrate_rule, path.curves == CurveKind::kBezier
                                                  ? FeedrateRule::kConstant

@@ -20,8 +20,7 @@ namespace twin::feedrate {
 class FeedrateRules {
  public:
   /// @param period  interpolation period [s]
-  FeedrateRules(const Limits& limits, const PlanningModel& model, const PathSettings& path,
-                double period);
+  FeedrateRules(Limits limits, const PlanningModel& model, const PathSettings& path, double period);
 
   /// Limit at a place of a fitted curve, or of an arc or line [mm/s].
   /// @param feedrate  programmed feedrate V_NC > 0 [mm/s]
