@@ -28,6 +28,13 @@ enum class FeedrateRule : std::uint8_t {
 /// Side of the workpiece's surface on which the tool is, seen along the path: G41, G42.
 enum class ToolSide : std::uint8_t { kLeft, kRight };
 
+/// How the feedrate changes from one value to another; feedrate/ramp.hpp says how each does.
+enum class AccelerationProfile : std::uint8_t {
+  kTrapezoidal,  ///< fastest within A_max and J_max
+  kSCurve,       ///< without constant acceleration
+  kFir,          ///< constant acceleration, then a moving average
+};
+
 /// The first-order servo model that the planner believes in (Eqs. 1, 4, 16 of the paper).
 ///
 /// These are the planning gains; the loop that runs has servo gains of its own (servo::Gains).
@@ -40,6 +47,7 @@ struct PlanningModel {
   FeedrateRule feedrate_rule = FeedrateRule::kAuto;
   double tool_radius = 0.0;              ///< for kContactSpeed [mm]
   ToolSide tool_side = ToolSide::kLeft;  ///< for kContactSpeed
+  AccelerationProfile acceleration_profile = AccelerationProfile::kTrapezoidal;
 };
 
 }  // namespace twin
