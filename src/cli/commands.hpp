@@ -11,6 +11,7 @@ namespace twin::cli {
 Expected<void> run_command(const Options& options, const std::atomic<bool>& stop);
 Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop);
 Expected<void> check_command(const Options& options);
+Expected<void> convert_command(const Options& options);
 Expected<void> render_command(const Options& options);
 
 }  // namespace twin::cli

@@ -41,6 +41,7 @@ struct Commands {
   CLI::App* run = nullptr;
   CLI::App* plan = nullptr;
   CLI::App* check = nullptr;
+  CLI::App* convert = nullptr;
   CLI::App* render = nullptr;
 };
 
@@ -99,10 +100,18 @@ void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
   commands.render = render;
 }
 
+void add_convert(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const convert = app.add_subcommand(
+      "convert", "Write a program as NURBS blocks of a control; runs of short blocks are fitted");
+  twin::cli::add_convert_options(*convert, options);
+  commands.convert = convert;
+}
+
 Commands add_commands(CLI::App& app, Options& options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
   add_check_and_render(app, options, commands);
+  add_convert(app, options, commands);
   return commands;
 }
 
@@ -138,6 +147,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.check->parsed()) {
     return report(check_command(options));
+  }
+  if (commands.convert->parsed()) {
+    return report(convert_command(options));
   }
   return report(render_command(options));
 } catch (const std::exception& error) {

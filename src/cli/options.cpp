@@ -1,11 +1,27 @@
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
+
 #include "config/find_file.hpp"
+#include "config/nearest_name.hpp"
+#include "convert/dialect.hpp"
 #include "core/units.hpp"
 
 namespace twin::cli {
 
-void add_planning_options(CLI::App& command, Options& options) {
+namespace {
+
+/// Empty for the name of a dialect, else what is wrong with it.
+std::string check_dialect(const std::string& name) {
+  if (convert::make_dialect(name) != nullptr) {
+    return {};
+  }
+  const std::vector<std::string> names = convert::dialect_names();
+  return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
+
+void add_program_options(CLI::App& command, Options& options) {
   command
       .add_option("program", options.programs,
                   "NC program: a file, or the name of one in nc_programs")
@@ -28,6 +44,25 @@ void add_planning_options(CLI::App& command, Options& options) {
                   "Feedrate in place of the program's F words")
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("F");
+}
+
+}  // namespace
+
+void add_convert_options(CLI::App& command, Options& options) {
+  add_program_options(command, options);
+  command
+      .add_option("--to", options.dialect,
+                  "g5.2: LinuxCNC; g6.2: LinuxCNC 2.10; fanuc: G06.2; bspline: SINUMERIK")
+      ->required()
+      ->check(check_dialect)
+      ->type_name("DIALECT");
+  command.add_option("--out", options.out, "File to write [renders/PROGRAM/PROGRAM.DIALECT.nc]")
+      ->type_name("FILE");
+  command.add_flag("--quiet", options.quiet, "Print errors only");
+}
+
+void add_planning_options(CLI::App& command, Options& options) {
+  add_program_options(command, options);
   command
       .add_option("--interpolator", options.interpolator,
                   "nurbs: runs of short blocks become curves; linear: the blocks as they are")

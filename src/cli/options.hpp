@@ -20,6 +20,7 @@ struct Options {
   std::optional<double> feedrate_mm_per_min;
   std::vector<std::string> settings;  ///< section.key=value
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
+  std::string dialect;                ///< of convert; then `out` is a file
   std::string camera = "iso";
   bool video = false;
   bool no_plots = false;
@@ -29,6 +30,8 @@ struct Options {
 
 /// Options that say what is planned: program, machine file, settings, feedrate, interpolator.
 void add_planning_options(CLI::App& command, Options& options);
+/// Options of convert: program, dialect, output file, machine file, settings, feedrate.
+void add_convert_options(CLI::App& command, Options& options);
 /// Options that say where results go and which.
 void add_result_options(CLI::App& command, Options& options);
 /// --video and --camera.

@@ -11,7 +11,8 @@ Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, L
   blocks.is_end = words.has(MGroup::kStop, MWord::kEnd);
   const MotionMode before = state_.motion;
   update(state_, words, feedrate_);
-  if (concerns_nurbs(words)) {
+  if ((nurbs_.is_open() || state_.is_nurbs() || words.has(GGroup::kMotion)) &&
+      concerns_nurbs(words)) {
     return execute_nurbs(words, before, line, blocks);
   }
   if (auto checked = check_words(words, state_); !checked) {
@@ -38,7 +39,6 @@ Expected<void> Interpreter::add_move(const LineWords& words, std::int64_t line,
                                      LineBlocks& blocks) {
   Block& block = blocks.block[blocks.count];
   block.path_mode = state_.path_mode;
-  block.nurbs.reset();
   block.start = position_;
   block.end = programmed_ = target(words);
   block.tolerance = state_.tolerance;
@@ -81,7 +81,6 @@ Expected<void> Interpreter::shape_arc(const LineWords& words, Block& block) cons
 void Interpreter::add_rest(double duration, std::int64_t line, LineBlocks& blocks) const {
   Block& block = blocks.block[blocks.count++];
   block.motion = Motion::kDwell;
-  block.nurbs.reset();
   block.path_mode = state_.path_mode;
   block.start = block.end = position_;
   block.feedrate = 0.0;

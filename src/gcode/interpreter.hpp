@@ -14,7 +14,8 @@ namespace twin::gcode {
 
 class LineWords;
 
-/// The blocks of one line: at most tool change, dwell, move and stop, in this order.
+/// The blocks of one line: at most tool change, dwell, move and stop, in this order. Whoever takes
+/// a block moves it out, so that `nurbs` is null in all of them before the next line.
 struct LineBlocks {
   std::array<Block, 4> block;
   std::size_t count = 0;

@@ -46,9 +46,9 @@ Expected<std::optional<Block>> Reader::next() {
       return stop_with(std::move(read.error()));
     }
   }
-  const Block& block = blocks_.block[next_block_++];
+  Block& block = blocks_.block[next_block_++];
   has_moved_ = has_moved_ || block.motion != Motion::kDwell;
-  return block;
+  return std::optional<Block>(std::move(block));
 }
 
 /// Reads one line into blocks_, which is empty if the line does not move.
