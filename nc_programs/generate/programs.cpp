@@ -7,8 +7,13 @@
 namespace twin::programs {
 
 std::vector<ProgramFile> all_programs() {
-  return {outline_program(oxalis()), outline_program(dolphin()), butterfly_program(),
-          circle_program(),          square_program(),           mixed_program()};
+  return {outline_program(oxalis()),
+          outline_program(dolphin()),
+          butterfly_program(),
+          butterfly_nurbs_program(),
+          circle_program(),
+          square_program(),
+          mixed_program()};
 }
 
 }  // namespace twin::programs

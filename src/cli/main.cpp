@@ -42,6 +42,7 @@ struct Commands {
   CLI::App* plan = nullptr;
   CLI::App* circle = nullptr;
   CLI::App* check = nullptr;
+  CLI::App* convert = nullptr;
   CLI::App* render = nullptr;
   CLI::App* reproduce = nullptr;
 };
@@ -139,12 +140,20 @@ void add_reproduce(CLI::App& app, Options& options, Commands& commands) {
   commands.reproduce = reproduce;
 }
 
+void add_convert(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const convert = app.add_subcommand(
+      "convert", "Write a program as NURBS blocks of a control; runs of short blocks are fitted");
+  twin::cli::add_convert_options(*convert, options);
+  commands.convert = convert;
+}
+
 Commands add_commands(CLI::App& app, Options& options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
   add_circle(app, options, commands);
   add_check_and_render(app, options, commands);
   add_reproduce(app, options, commands);
+  add_convert(app, options, commands);
   return commands;
 }
 
@@ -186,6 +195,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.reproduce->parsed()) {
     return report(reproduce_command(options, stop_requested));
+  }
+  if (commands.convert->parsed()) {
+    return report(convert_command(options));
   }
   return report(render_command(options));
 } catch (const std::exception& error) {

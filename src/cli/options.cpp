@@ -1,9 +1,27 @@
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
+
 #include "config/find_file.hpp"
+#include "config/nearest_name.hpp"
+#include "convert/dialect.hpp"
 #include "core/units.hpp"
 
 namespace twin::cli {
+
+namespace {
+
+/// Empty for the name of a dialect, else what is wrong with it.
+std::string check_dialect(const std::string& name) {
+  if (convert::make_dialect(name) != nullptr) {
+    return {};
+  }
+  const std::vector<std::string> names = convert::dialect_names();
+  return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
+
+}  // namespace
 
 void add_planning_options(CLI::App& command, Options& options) {
   command
@@ -38,6 +56,19 @@ void add_machine_options(CLI::App& command, Options& options) {
                   "linear (nothing else) [of the machine file: nurbs]")
       ->check(CLI::IsMember({"nurbs", "bezier", "linear"}))
       ->type_name("NAME");
+}
+
+void add_convert_options(CLI::App& command, Options& options) {
+  add_planning_options(command, options);
+  command
+      .add_option("--to", options.dialect,
+                  "g5.2: LinuxCNC; g6.2: LinuxCNC 2.10; fanuc: G06.2; bspline: SINUMERIK")
+      ->required()
+      ->check(check_dialect)
+      ->type_name("DIALECT");
+  command.add_option("--out", options.out, "File to write [renders/PROGRAM/PROGRAM.DIALECT.nc]")
+      ->type_name("FILE");
+  command.add_flag("--quiet", options.quiet, "Print errors only");
 }
 
 void add_hal_option(CLI::App& command, Options& options) {

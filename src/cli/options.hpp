@@ -21,6 +21,7 @@ struct Options {
   double radius_mm = 20.0;            ///< of the circular test
   std::vector<std::string> settings;  ///< section.key=value
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
+  std::string dialect;                ///< of convert; then `out` is a file
   std::string camera = "iso";
   int repeats = 10;  ///< of the runs of reproduce, with other phases
   bool video = false;
@@ -35,6 +36,8 @@ void add_planning_options(CLI::App& command, Options& options);
 void add_machine_options(CLI::App& command, Options& options);
 /// --hal.
 void add_hal_option(CLI::App& command, Options& options);
+/// Options of convert: program, dialect, output file, machine file, settings, feedrate.
+void add_convert_options(CLI::App& command, Options& options);
 /// Options that say where results go and which.
 void add_result_options(CLI::App& command, Options& options);
 /// --video and --camera.
