@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "cli/identify_options.hpp"
 #include "cli/options.hpp"
 #include "core/error.hpp"
 
@@ -12,5 +13,7 @@ Expected<void> run_command(const Options& options, const std::atomic<bool>& stop
 Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop);
 Expected<void> check_command(const Options& options);
 Expected<void> render_command(const Options& options);
+Expected<void> identify_command(const Options& options, const IdentifyOptions& identify_options,
+                                const std::atomic<bool>& stop);
 
 }  // namespace twin::cli

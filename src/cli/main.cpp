@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cli/commands.hpp"
+#include "cli/identify_options.hpp"
 #include "cli/usage.hpp"
 
 namespace {
@@ -42,6 +43,7 @@ struct Commands {
   CLI::App* plan = nullptr;
   CLI::App* check = nullptr;
   CLI::App* render = nullptr;
+  CLI::App* identify = nullptr;
 };
 
 void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
@@ -99,10 +101,12 @@ void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
   commands.render = render;
 }
 
-Commands add_commands(CLI::App& app, Options& options) {
+Commands add_commands(CLI::App& app, Options& options,
+                      twin::cli::IdentifyOptions& identify_options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
   add_check_and_render(app, options, commands);
+  commands.identify = twin::cli::add_identify_command(app, options, identify_options);
   return commands;
 }
 
@@ -117,8 +121,9 @@ int main(int argc, char** argv) try {
   app.set_version_flag("--version", "twin " TWIN_VERSION);
   app.require_subcommand(1);
   Options options;
+  IdentifyOptions identify_options;
 
-  const Commands commands = add_commands(app, options);
+  const Commands commands = add_commands(app, options, identify_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -138,6 +143,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.check->parsed()) {
     return report(check_command(options));
+  }
+  if (commands.identify->parsed()) {
+    return report(identify_command(options, identify_options, stop_requested));
   }
   return report(render_command(options));
 } catch (const std::exception& error) {
