@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/identify_options.hpp"
 #include "cli/progress.hpp"
+#include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
 #include "identify/identify.hpp"
 #include "identify/parameter.hpp"
@@ -30,15 +31,17 @@ Expected<std::vector<std::string>> keys_of(const std::vector<std::string>& names
   }
   std::vector<std::string> keys;
   for (const std::string& name : names) {
-    auto set = identify::ParameterSet::create({{name, 0.0, 1.0}});
-    // A range of its own does not matter here; a key that does not exist does.
-    const std::string key = set ? (*set)[0].key : name;
     const auto found = std::ranges::find_if(known, [&](const identify::Parameter& parameter) {
-      return parameter.key == key || parameter.key.starts_with(key + "_");
+      return parameter.key == name || parameter.key.starts_with(name + "_");
     });
     if (found == known.end()) {
+      std::vector<std::string> candidates;
+      for (const identify::Parameter& parameter : known) {
+        candidates.push_back(parameter.key);
+      }
       return fail(ErrorCode::kUsage,
-                  fmt::format("--fix, --free: {} is nothing that a trace is fitted for", name));
+                  fmt::format("--fix, --free: {} is nothing that a trace is fitted for{}", name,
+                              config::did_you_mean(name, candidates)));
     }
     keys.push_back(found->key);
   }

@@ -43,7 +43,8 @@ class AxisFitter {
   void search_further(const config::MachineFile& begin);
   void polish(int iterations, int least_rank = 0);
   void judge_and_hold();
-  std::vector<std::size_t> free_places(bool with_analysed) const;
+  bool take(const std::vector<std::size_t>& places, const Judgement& judgement);
+  std::vector<std::size_t> free_places() const;
   ParameterSet set_of(const std::vector<std::size_t>& places) const;
   Eigen::VectorXd residuals(const ParameterSet& set, const Eigen::VectorXd& units) const;
   void hold(std::size_t place, Verdict verdict, double sigma, double relative, std::string why);
@@ -123,10 +124,10 @@ void AxisFitter::hold(std::size_t place, Verdict verdict, double sigma, double r
   current_ = one.with_values(current_, std::vector<double>{parameter.start});
 }
 
-std::vector<std::size_t> AxisFitter::free_places(bool with_analysed) const {
+std::vector<std::size_t> AxisFitter::free_places() const {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (!is_held_[i] && (with_analysed || !candidates_[i].is_analysed_only)) {
+    if (!is_held_[i] && !candidates_[i].is_analysed_only) {
       places.push_back(i);
     }
   }
@@ -171,9 +172,12 @@ void AxisFitter::estimate_gains() {
     return;
   }
   const hal::AxisParams& axis = current_.table.axis[problem_.axis()];
-  const GainFit gains =
+  GainFit gains =
       fit_gains(problem_.records(), axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead,
                 current_.period);
+  gains.gains.kp = std::max(gains.gains.kp, 0.0);
+  gains.gains.kd = std::max(gains.gains.kd, 0.0);
+  gains.gains.kf = std::max(gains.gains.kf, 0.0);
   servo::Gains& servo = current_.servo[problem_.axis()];
   const std::string section = problem_.axis() == hal::kX ? "servo.x." : "servo.y.";
   struct Line {
@@ -256,7 +260,7 @@ void AxisFitter::estimate_directly() {
 
 /// The local search, over the parameters of at least a hold_rank.
 void AxisFitter::polish(int iterations, int least_rank) {
-  std::vector<std::size_t> places = free_places(false);
+  std::vector<std::size_t> places = free_places();
   std::erase_if(places, [&](std::size_t p) { return candidates_[p].hold_rank < least_rank; });
   const ParameterSet set = set_of(places);
   problem_.set_base(current_);
@@ -275,7 +279,7 @@ void AxisFitter::polish(int iterations, int least_rank) {
 void AxisFitter::search(int number, const config::MachineFile& begin) {
   const config::MachineFile best = std::exchange(current_, begin);
   const double best_rms = rms_of(best);
-  const ParameterSet set = set_of(free_places(false));
+  const ParameterSet set = set_of(free_places());
   problem_.set_base(current_);
   MinimiseOptions options;
   options.start = set.units(current_);
@@ -314,35 +318,48 @@ void AxisFitter::search_further(const config::MachineFile& begin) {
 
 /// Holds what the data do not show, fits the rest again, and so on until all of the rest is shown.
 void AxisFitter::judge_and_hold() {
+  std::vector<std::size_t> places;  // all but what the user fixed
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (results_[i].verdict != Verdict::kFixed) {
+      places.push_back(i);
+    }
+  }
+  const ParameterSet set = set_of(places);
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::vector<std::size_t> places = free_places(true);
-    const ParameterSet set = set_of(places);
-    std::vector<const Candidate*> candidates;
-    for (const std::size_t place : places) {
-      candidates.push_back(&candidates_[place]);
+    std::vector<JudgedCandidate> judged;
+    const std::vector<double> values = set.values(current_);
+    const std::vector<double> units = set.units(current_);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      judged.push_back({&candidates_[places[i]], values[i], units[i], is_held_[places[i]]});
     }
     problem_.set_base(current_);
     const Judgement judgement = judge(
-        candidates, set.units(current_), set.values(current_),
-        [&](const Eigen::VectorXd& u) { return residuals(set, u); },
+        judged, [&](const Eigen::VectorXd& u) { return residuals(set, u); },
         static_cast<Eigen::Index>(std::lround(kBlock / current_.period)));
-    bool must_fit = false;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const ParameterJudgement& one = judgement[i];
-      FittedParameter& parameter = results_[places[i]];
-      parameter.sigma = one.sigma;
-      parameter.relative = one.relative;
-      if (one.verdict != Verdict::kIdentified) {
-        must_fit = must_fit || !candidates_[places[i]].is_analysed_only;
-        hold(places[i], one.verdict, one.sigma, one.relative, one.why);
-      }
-    }
     report(kSearchEnd + (1.0 - kSearchEnd) * (round + 1.0) / (kMostRounds + 1.0));
-    if (!must_fit || (options_.stop != nullptr && options_.stop->load())) {
+    if (!take(places, judgement) || (options_.stop != nullptr && options_.stop->load())) {
       return;
     }
     polish(15);
   }
+}
+
+/// Notes a judgement. @returns whether parameters were held that had been fitted
+bool AxisFitter::take(const std::vector<std::size_t>& places, const Judgement& judgement) {
+  bool must_fit = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ParameterJudgement& one = judgement[i];
+    if (is_held_[places[i]]) {
+      continue;
+    }
+    results_[places[i]].sigma = one.sigma;
+    results_[places[i]].relative = one.relative;
+    if (one.verdict != Verdict::kIdentified) {
+      must_fit = must_fit || !candidates_[places[i]].is_analysed_only;
+      hold(places[i], one.verdict, one.sigma, one.relative, one.why);
+    }
+  }
+  return must_fit;
 }
 
 double AxisFitter::rms_of(const config::MachineFile& machine) {

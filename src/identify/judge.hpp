@@ -20,14 +20,23 @@ struct ParameterJudgement {
 };
 using Judgement = std::vector<ParameterJudgement>;
 
+/// A candidate at the fit.
+struct JudgedCandidate {
+  const Candidate* candidate = nullptr;
+  double value = 0.0;    ///< in the key's unit
+  double unit = 0.0;     ///< place in its range, 0 to 1
+  bool is_held = false;  ///< known to be unidentified
+};
+
 /// Tells identified from unidentified parameters at a least-squares fit.
 ///
 /// From the derivatives J at the fit and the residuals comes a covariance. While some parameter's
 /// relative standard deviation exceeds kMostRelative, one of these is held (its column of J
 /// dropped): the one of the lowest hold_rank. So of parameters that only show together, as the mass
 /// and all frictions that scale with it, one is held and the others are determined against it.
+/// The deviations reported include a doubt of 30 % of each held value, passed on to first order.
 /// @param block  rows within which residuals may be correlated
-Judgement judge(const std::vector<const Candidate*>& candidates, const std::vector<double>& units,
-                const std::vector<double>& values, const Residuals& residuals, Eigen::Index block);
+Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals& residuals,
+                Eigen::Index block);
 
 }  // namespace twin::identify

@@ -16,7 +16,6 @@ constexpr double kLongestStep = 0.1;  // of a coordinate in one iteration
 constexpr double kUnseen = 1e-14;     // share of the largest eigenvalue below which J sees nothing
 
 constexpr double kTiny = 1e-100;
-constexpr double kUnseenVariance = 1e12;  // of what does not show at all
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -81,6 +80,19 @@ MatrixXd jacobian(const Residuals& residuals, const VectorXd& x, const VectorXd&
   return j;
 }
 
+MatrixXd central_jacobian(const Residuals& residuals, const VectorXd& x, double difference) {
+  MatrixXd j(residuals(x).size(), x.size());
+  parallel_for(static_cast<std::size_t>(x.size()), [&](std::size_t column) {
+    const auto i = static_cast<Index>(column);
+    VectorXd above = x;
+    VectorXd below = x;
+    above[i] = std::min(x[i] + difference, 1.0);
+    below[i] = std::max(x[i] - difference, 0.0);
+    j.col(i) = (residuals(above) - residuals(below)) / (above[i] - below[i]);
+  });
+  return j;
+}
+
 LeastSquaresFit least_squares(const Residuals& residuals, const VectorXd& start,
                               const LeastSquaresOptions& options) {
   LeastSquaresFit fit;
@@ -108,23 +120,25 @@ MatrixXd block_covariance(const MatrixXd& jacobian, const VectorXd& residual, In
         jacobian.middleRows(begin, rows).transpose() * residual.segment(begin, rows);
     scores += score * score.transpose();
   }
-  // Inverse of J^T J with columns of one size, so that units do not matter.
+  const MatrixXd inverse = normal_inverse(jacobian);
+  MatrixXd covariance = inverse * scores * inverse;
+  const double variance =
+      residual.squaredNorm() / static_cast<double>(std::max<Index>(residual.size() - n, 1));
+  for (Index i = 0; i < n; ++i) {
+    covariance(i, i) = std::max(covariance(i, i), variance * inverse(i, i));
+  }
+  return covariance;
+}
+
+MatrixXd normal_inverse(const MatrixXd& jacobian) {
   const VectorXd norm = jacobian.colwise().norm();
   const VectorXd size = norm.cwiseMax(kUnseen * norm.maxCoeff() + kTiny);
   const MatrixXd scaled = jacobian * size.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled.transpose() * scaled);
   const VectorXd values =
       eigen.eigenvalues().cwiseMax(kUnseen * eigen.eigenvalues().maxCoeff()).cwiseInverse();
-  const MatrixXd inverse = size.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
-                           values.asDiagonal() * eigen.eigenvectors().transpose() *
-                           size.cwiseInverse().asDiagonal();
-  MatrixXd covariance = inverse * scores * inverse;
-  for (Index i = 0; i < n; ++i) {
-    if (norm[i] < size[i]) {
-      covariance(i, i) = kUnseenVariance;
-    }
-  }
-  return covariance;
+  return size.cwiseInverse().asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
+         eigen.eigenvectors().transpose() * size.cwiseInverse().asDiagonal();
 }
 
 }  // namespace twin::identify

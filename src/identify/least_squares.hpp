@@ -35,14 +35,23 @@ LeastSquaresFit least_squares(const Residuals& residuals, const Eigen::VectorXd&
 Eigen::MatrixXd jacobian(const Residuals& residuals, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& residual, double difference);
 
+/// The same by central differences where both sides are inside: twice the work, and what cancels
+/// between columns cancels.
+Eigen::MatrixXd central_jacobian(const Residuals& residuals, const Eigen::VectorXd& x,
+                                 double difference);
+
 /// Covariance of a least-squares estimate whose residuals are alike within blocks of rows.
 ///
 /// With the scores s_b = sum over block b of J_k r_k,
 ///   C = (J^T J)^-1 (sum_b s_b s_b^T) (J^T J)^-1,
-/// which stays right when residuals are correlated over less than a block [Liang & Zeger 1986].
-/// Directions that J does not see get a very large variance.
+/// which stays right when residuals are correlated over less than a block [Liang & Zeger 1986]. A
+/// variance is never less than that of uncorrelated residuals, s^2 (J^T J)^-1, and very large in
+/// directions that J does not see.
 /// @param block  rows in a block
 Eigen::MatrixXd block_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
                                  Eigen::Index block);
+
+/// (J^T J)^-1, with columns scaled to one size first.
+Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& jacobian);
 
 }  // namespace twin::identify

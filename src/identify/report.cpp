@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kWhyWidth = 70;
+constexpr std::size_t kWhyWidth = 110;
 
 bool is_found(const FittedParameter& parameter) {
   return parameter.verdict == Verdict::kIdentified || parameter.verdict == Verdict::kMeasured;
@@ -27,7 +27,7 @@ std::string rounded(double value, double sigma) {
     return fmt::format("{:.6g}", value);
   }
   const int digits = static_cast<int>(std::ceil(1.0 - std::log10(sigma)));
-  return fmt::format("{:.{}f}", value, std::clamp(digits, 0, 8));
+  return fmt::format("{:.{}f}", value, std::clamp(digits, 0, 6));
 }
 
 /// Unit of a key as people write it; empty for a plain number.
@@ -44,6 +44,9 @@ std::string unit_of(const std::string& key) {
 std::string relative_text(const FittedParameter& p) {
   if (p.verdict == Verdict::kFixed || !(p.sigma > 0.0)) {
     return "";
+  }
+  if (p.relative < 1e-4) {
+    return "< 0.01 %";
   }
   return p.relative > 9.99 ? "> 999 %" : fmt::format("{:.2g} %", 100.0 * p.relative);
 }
