@@ -7,13 +7,9 @@
 namespace twin::programs {
 
 std::vector<ProgramFile> all_programs() {
-  return {outline_program(oxalis()),
-          outline_program(dolphin()),
-          butterfly_program(),
-          butterfly_nurbs_program(),
-          circle_program(),
-          square_program(),
-          mixed_program()};
+  return {outline_program(oxalis()), outline_program(dolphin()), butterfly_program(),
+          butterfly_nurbs_program(), circle_program(),           square_program(),
+          mixed_program(),           identify_program()};
 }
 
 }  // namespace twin::programs

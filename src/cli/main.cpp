@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cli/commands.hpp"
+#include "cli/identify_options.hpp"
 #include "cli/usage.hpp"
 
 namespace {
@@ -45,6 +46,7 @@ struct Commands {
   CLI::App* convert = nullptr;
   CLI::App* render = nullptr;
   CLI::App* reproduce = nullptr;
+  CLI::App* identify = nullptr;
 };
 
 void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
@@ -147,13 +149,15 @@ void add_convert(CLI::App& app, Options& options, Commands& commands) {
   commands.convert = convert;
 }
 
-Commands add_commands(CLI::App& app, Options& options) {
+Commands add_commands(CLI::App& app, Options& options,
+                      twin::cli::IdentifyOptions& identify_options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
   add_circle(app, options, commands);
   add_check_and_render(app, options, commands);
   add_reproduce(app, options, commands);
   add_convert(app, options, commands);
+  commands.identify = twin::cli::add_identify_command(app, options, identify_options);
   return commands;
 }
 
@@ -168,8 +172,9 @@ int main(int argc, char** argv) try {
   app.set_version_flag("--version", "twin " TWIN_VERSION);
   app.require_subcommand(1);
   Options options;
+  IdentifyOptions identify_options;
 
-  const Commands commands = add_commands(app, options);
+  const Commands commands = add_commands(app, options, identify_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -198,6 +203,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.convert->parsed()) {
     return report(convert_command(options));
+  }
+  if (commands.identify->parsed()) {
+    return report(identify_command(options, identify_options, stop_requested));
   }
   return report(render_command(options));
 } catch (const std::exception& error) {
