@@ -55,19 +55,21 @@ Line ratios(const std::string& what, const Answer& answer, Of of) {
 
 /// Our lines of one variant.
 void add_ours(Grid& grid, const Answer& answer, const std::string& title, int repeats) {
-  grid.lines.push_back(line(title + ", one run", answer, [&](std::size_t i, int decimals) {
+  grid.lines.push_back(line(title, answer, [&](std::size_t i, int decimals) {
     return Cell{fmt::format("{:.{}f}", answer.single[i], decimals)};
   }));
   grid.lines.push_back(ratios("  ratio", answer, Of::kSingle));
   if (!is_measured(answer.published.table) || answer.repeats.empty()) {
     return;  // what is planned does not depend on the phases of the table
   }
-  grid.lines.push_back(line(
-      fmt::format("{}, mean of {} (sd)", title, repeats), answer, [&](std::size_t i, int decimals) {
-        return Cell{fmt::format("{:.{}f} ({:.{}f})", answer.repeats[i].mean, decimals,
-                                answer.repeats[i].deviation, decimals)};
+  grid.lines.push_back(
+      line(fmt::format("  mean of {}", repeats), answer, [&](std::size_t i, int decimals) {
+        return Cell{fmt::format("{:.{}f}", answer.repeats[i].mean, decimals)};
       }));
-  grid.lines.push_back(ratios("  ratio", answer, Of::kMean));
+  grid.lines.push_back(line("  their sd", answer, [&](std::size_t i, int decimals) {
+    return Cell{fmt::format("{:.{}f}", answer.repeats[i].deviation, decimals)};
+  }));
+  grid.lines.push_back(ratios("  ratio of mean", answer, Of::kMean));
 }
 
 Line counts_line(const std::string& row, const std::string& what, const Counts& counts) {

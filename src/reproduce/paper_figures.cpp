@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "plot/gnuplot.hpp"
 #include "reproduce/contour_panel.hpp"
 #include "reproduce/figure_script.hpp"
+#include "reproduce/value_range.hpp"
 #include "trace/columns.hpp"
 #include "trace/csv_file.hpp"
 #include "trace/decimator.hpp"
@@ -18,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 6000;  // of a figure's data
+constexpr std::size_t kMostRows = 12000;  // of a figure's data
 
 /// Figures are collected here, then drawn.
 class Album {
@@ -95,10 +97,6 @@ Panel over_time(std::string caption, std::string y_label, const std::string& dat
           height};
 }
 
-std::string feedrate_range(double feedrate_mm_per_min) {
-  return fmt::format("  set yrange [0:{:g}]\n", 1.12 * feedrate_mm_per_min / 60.0);
-}
-
 /// Figs. 12, 13.
 Expected<void> add_contour(Album& album, int number, const Answer& answer) {
   const std::string& program = answer.published.program;
@@ -132,7 +130,7 @@ Expected<void> add_feedrates(Album& album, int number, const std::string& progra
     panels.push_back(
         over_time(fmt::format("({}) {:.0f},000 mm/min", "abc"[panels.size()], feedrate / 1000.0),
                   kFeedrate, data, "feedrate_mm_per_s", 1, 230));
-    panels.back().settings = feedrate_range(feedrate);
+    panels.back().settings = feedrate_axis(feedrate / 60.0, false);
   }
   return album.add(name, title_of(number, program, "feedrate profiles"), panels);
 }
@@ -148,13 +146,17 @@ Expected<void> add_errors(Album& album, int number, const Answer& answer) {
   if (!table) {
     return tl::unexpected(table.error());
   }
-  std::vector<Panel> panels{
-      over_time("(a) contour errors, NURBS at 3,000 mm/min", "contour error [µm]", name,
-                "contour_error_um", 1, 250),
-      over_time("(b) tracking errors, X axis", "error of X [µm]", name, "x_tracking_error_um", 2,
-                250),
-      over_time("      Y axis", "error of Y [µm]", name, "y_tracking_error_um", 3, 250)};
-  panels[0].settings = "  set yrange [0:*]\n";
+  std::vector<Panel> panels{over_time("(a) contour errors, NURBS at 3,000 mm/min",
+                                      "contour error [µm]", name, "contour_error_um", 1, 270),
+                            over_time("(b) tracking errors, X axis", "error of X [µm]", name,
+                                      "x_tracking_error_um", 2, 250),
+                            over_time("(b) tracking errors, Y axis", "error of Y [µm]", name,
+                                      "y_tracking_error_um", 3, 250)};
+  const ValueRange x = range_of(*table, 2);
+  const ValueRange y = range_of(*table, 3);
+  panels[0].settings = y_axis(range_of(*table, 1));
+  panels[1].settings = y_axis({std::min(x.low, y.low), std::max(x.high, y.high)});
+  panels[2].settings = panels[1].settings;
   return album.add(name, title_of(number, program, "measured errors"), panels);
 }
 
@@ -172,8 +174,8 @@ Expected<void> add_bezier(Album& album, int number, const Answer& answer) {
       over_time("(a) feedrate commands, 3,000 mm/min", kFeedrate, name, "feedrate_mm_per_s", 1,
                 270),
       over_time("(b) contour errors", "contour error [µm]", name, "contour_error_um", 1, 270)};
-  panels[0].settings = feedrate_range(answer.published.feedrate_mm_per_min);
-  panels[1].settings = "  set yrange [0:*]\n";
+  panels[0].settings = feedrate_axis(answer.published.feedrate_mm_per_min / 60.0, false);
+  panels[1].settings = y_axis(range_of(*table, 2));
   return album.add(name, title_of(number, program, "Fast Bezier"), panels);
 }
 
