@@ -12,6 +12,7 @@ Expected<void> run_command(const Options& options, const std::atomic<bool>& stop
 Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop);
 Expected<void> check_command(const Options& options);
 Expected<void> render_command(const Options& options);
+Expected<void> compare_command(const Options& options, const std::atomic<bool>& stop);
 Expected<void> reproduce_command(const Options& options, const std::atomic<bool>& stop);
 
 }  // namespace twin::cli

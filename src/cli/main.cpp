@@ -42,8 +42,18 @@ struct Commands {
   CLI::App* plan = nullptr;
   CLI::App* check = nullptr;
   CLI::App* render = nullptr;
+  CLI::App* compare = nullptr;
   CLI::App* reproduce = nullptr;
 };
+
+void add_hal_option(CLI::App& command, Options& options) {
+  command
+      .add_option("--hal", options.hal,
+                  "Machine: mujoco is the simulated table, ideal has position = set point")
+      ->check(CLI::IsMember({"mujoco", "ideal"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+}
 
 void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   CLI::App* const run = app.add_subcommand(
@@ -51,11 +61,7 @@ void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   twin::cli::add_planning_options(*run, options);
   twin::cli::add_result_options(*run, options);
   twin::cli::add_video_options(*run, options);
-  run->add_option("--hal", options.hal,
-                  "Machine: mujoco is the simulated table, ideal has position = set point")
-      ->check(CLI::IsMember({"mujoco", "ideal"}))
-      ->type_name("NAME")
-      ->capture_default_str();
+  add_hal_option(*run, options);
   run->add_flag("--realtime", options.realtime, "Keep to the wall clock");
 
   CLI::App* const plan =
@@ -100,6 +106,18 @@ void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
   commands.render = render;
 }
 
+void add_compare(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const compare = app.add_subcommand(
+      "compare", "The interpolators side by side on one program; the parameter updates too");
+  twin::cli::add_program_options(*compare, options);
+  add_hal_option(*compare, options);
+  compare->add_option("--out", options.out, "Folder of the results [renders/PROGRAM_compare]")
+      ->type_name("DIR");
+  compare->add_flag("--no-plots", options.no_plots, "Write no figures");
+  compare->add_flag("--quiet", options.quiet, "Print errors only");
+  commands.compare = compare;
+}
+
 void add_reproduce(CLI::App& app, Options& options, Commands& commands) {
   CLI::App* const reproduce = app.add_subcommand(
       "reproduce", "Tables 1 to 5 and Figs. 12 to 19 of Wang and Yau's paper beside ours");
@@ -128,6 +146,7 @@ Commands add_commands(CLI::App& app, Options& options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
   add_check_and_render(app, options, commands);
+  add_compare(app, options, commands);
   add_reproduce(app, options, commands);
   return commands;
 }
@@ -164,6 +183,9 @@ int main(int argc, char** argv) try {
   }
   if (commands.check->parsed()) {
     return report(check_command(options));
+  }
+  if (commands.compare->parsed()) {
+    return report(compare_command(options, stop_requested));
   }
   if (commands.reproduce->parsed()) {
     return report(reproduce_command(options, stop_requested));

@@ -5,7 +5,7 @@
 
 namespace twin::cli {
 
-void add_planning_options(CLI::App& command, Options& options) {
+void add_program_options(CLI::App& command, Options& options) {
   command
       .add_option("program", options.programs,
                   "NC program: a file, or the name of one in nc_programs")
@@ -28,6 +28,10 @@ void add_planning_options(CLI::App& command, Options& options) {
                   "Feedrate in place of the program's F words")
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("F");
+}
+
+void add_planning_options(CLI::App& command, Options& options) {
+  add_program_options(command, options);
   command
       .add_option("--interpolator", options.interpolator,
                   "What runs of short blocks become: nurbs (C2 curves), bezier (Fast Bezier), "

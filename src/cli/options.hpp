@@ -28,7 +28,10 @@ struct Options {
   bool quiet = false;
 };
 
-/// Options that say what is planned: program, machine file, settings, feedrate, interpolator.
+/// Options that say what is planned and on which machine: program, machine file, settings,
+/// feedrate.
+void add_program_options(CLI::App& command, Options& options);
+/// The same and the interpolator.
 void add_planning_options(CLI::App& command, Options& options);
 /// Options that say where results go and which.
 void add_result_options(CLI::App& command, Options& options);

@@ -5,7 +5,8 @@
 #include "cli/progress.hpp"
 #include "config/find_file.hpp"
 #include "reproduce/figure_kinds.hpp"
-#include "reproduce/render_grid.hpp"
+#include "reproduce/files.hpp"
+#include "reproduce/table_grids.hpp"
 #include "reproduce/write_results.hpp"
 
 namespace twin::cli {
@@ -17,7 +18,7 @@ void print(const reproduce::Reproduction& reproduction) {
   for (int table = reproduce::kFirstTable; table <= reproduce::kLastTable; ++table) {
     fmt::print("{}\n", to_text(grid_of_table(reproduction, table)));
   }
-  fmt::print("{}\n", to_text(grid_of_counts(reproduction)));
+  fmt::print("{}\n{}\n\n", to_text(grid_of_counts(reproduction)), unreached(reproduction));
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ Expected<void> reproduce_command(const Options& options, const std::atomic<bool>
     return tl::unexpected(!published ? published.error() : machine.error());
   }
   const std::filesystem::path out = options.out.empty() ? "renders/reproduce" : options.out;
-  auto workshop = reproduce::Workshop::open(out);
+  auto workshop = report::Workshop::open(out);
   if (!workshop) {
     return tl::unexpected(workshop.error());
   }

@@ -6,13 +6,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "report/value_range.hpp"
 #include "reproduce/sensitive_corners.hpp"
-#include "reproduce/value_range.hpp"
 
 namespace twin::reproduce {
 namespace {
 
-constexpr double kDrop = 0.15;  // of the programmed feedrate, by which a corner shows [-]
+using report::feedrate_axis;
+using report::kPanelWidth;
+using report::Panel;
+
+constexpr double kDrop = 0.15;      // of the programmed feedrate, by which a corner shows [-]
+constexpr double kOnePlace = 0.02;  // of the path's extent: corners that share a letter [-]
 
 std::vector<Moment> moments_of(const trace::Table& table) {
   std::vector<Moment> motion;
@@ -38,7 +43,7 @@ std::vector<Sign> signs_of(const std::vector<Moment>& corners, double extent) {
   std::vector<Sign> signs;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto same = std::ranges::find_if(signs, [&](const Sign& sign) {
-      return (sign.corner.point - corners[i].point).norm() < 0.02 * extent;
+      return (sign.corner.point - corners[i].point).norm() < kOnePlace * extent;
     });
     if (same != signs.end()) {
       same->text += ", " + corner_letter(i);
@@ -52,7 +57,8 @@ std::vector<Sign> signs_of(const std::vector<Moment>& corners, double extent) {
 /// Letters beside the contour, clear of it and of each other.
 class SignPlaces {
  public:
-  SignPlaces(const std::vector<Moment>& motion, double extent) : extent_(extent) {
+  SignPlaces(const std::vector<Moment>& motion, const std::vector<Moment>& corners, double extent)
+      : corners_(corners), extent_(extent) {
     for (const Moment& moment : motion) {
       if (taken_.empty() || (moment.point - taken_.back()).norm() > 0.01 * extent) {
         taken_.push_back(moment.point);
@@ -70,7 +76,7 @@ class SignPlaces {
       const double angle = 2.0 * std::numbers::pi * i / kDirections;
       Vec2 at = sign.corner.point + 0.062 * extent_ * Vec2(std::cos(angle), std::sin(angle));
       at.x() += std::cos(angle) * half_width;
-      const double room = clearance(at, half_width);
+      const double room = std::min(clearance(at, half_width), 0.5 * from_others(at, sign.corner));
       if (room > most * 1.02) {
         most = room;
         best = at;
@@ -92,6 +98,18 @@ class SignPlaces {
     return least;
   }
 
+  /// Distance from the other corners: a letter has to be nearest to its own.
+  double from_others(const Vec2& at, const Moment& own) const {
+    double least = HUGE_VAL;
+    for (const Moment& corner : corners_) {
+      if ((corner.point - own.point).norm() >= kOnePlace * extent_) {
+        least = std::min(least, (corner.point - at).norm());
+      }
+    }
+    return least;
+  }
+
+  const std::vector<Moment>& corners_;
   double extent_;
   std::vector<Vec2> taken_;
 };
@@ -141,7 +159,7 @@ Panel contour_panel(const std::vector<Moment>& motion, const std::vector<Moment>
       "  set size ratio -1\n  set xrange [{:.3f}:{:.3f}]\n"
       "  set yrange [{:.3f}:{:.3f}]\n",
       low.x(), high.x(), low.y(), high.y());
-  SignPlaces places(motion, extent);
+  SignPlaces places(motion, corners, extent);
   for (const Sign& sign : signs_of(corners, extent)) {
     panel.settings += contour_sign(sign, places.place(sign), extent);
   }
@@ -172,8 +190,8 @@ Panel feedrate_panel(const std::vector<Moment>& corners, const std::string& data
 
 }  // namespace
 
-std::vector<Panel> contour_panels(const trace::Table& table, const std::string& data,
-                                  double feedrate) {
+std::vector<report::Panel> contour_panels(const trace::Table& table, const std::string& data,
+                                          double feedrate) {
   const std::vector<Moment> motion = moments_of(table);
   if (motion.empty()) {
     return {};

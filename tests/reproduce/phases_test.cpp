@@ -53,7 +53,7 @@ double discrepancy(std::size_t which, int repeats) {
 
 TEST(Phases, AreSpreadEvenly) {
   for (const std::size_t which : {0U, 1U, 2U}) {
-    EXPECT_LT(discrepancy(which, 10), 0.25) << which;  // random points: 0.37 at the median
+    EXPECT_LT(discrepancy(which, 10), 0.25) << which;   // random points: 0.37 at the median
     EXPECT_LT(discrepancy(which, 100), 0.06) << which;  // random points: 0.08
   }
 }

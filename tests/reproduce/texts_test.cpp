@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "reproduce/files.hpp"
-#include "reproduce/render_grid.hpp"
+#include "reproduce/table_grids.hpp"
 #include "tests/reproduce/answers.hpp"
 
 // Well-formed tables, page and files, whatever the figures.

@@ -1,11 +1,11 @@
-#include "reproduce/value_range.hpp"
+#include "report/value_range.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace twin::reproduce {
+namespace twin::report {
 
 ValueRange range_of(const trace::Table& table, std::size_t column) {
   ValueRange range;
@@ -41,4 +41,4 @@ std::string feedrate_axis(double feedrate, bool has_letters) {
                      tic_step({0.0, feedrate}));
 }
 
-}  // namespace twin::reproduce
+}  // namespace twin::report

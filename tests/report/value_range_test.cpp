@@ -1,10 +1,10 @@
-#include "reproduce/value_range.hpp"
+#include "report/value_range.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace twin::reproduce {
+namespace twin::report {
 namespace {
 
 TEST(ValueRange, StepsAreRoundAndFew) {
@@ -37,4 +37,4 @@ TEST(ValueRange, IsThatOfAColumnAndZero) {
 }
 
 }  // namespace
-}  // namespace twin::reproduce
+}  // namespace twin::report

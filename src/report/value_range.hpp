@@ -4,7 +4,7 @@
 
 #include "trace/decimator.hpp"
 
-namespace twin::reproduce {
+namespace twin::report {
 
 /// Range of the values on an axis.
 struct ValueRange {
@@ -26,4 +26,4 @@ std::string y_axis(const ValueRange& range);
 /// @param feedrate  programmed [mm/s]
 std::string feedrate_axis(double feedrate, bool has_letters);
 
-}  // namespace twin::reproduce
+}  // namespace twin::report

@@ -1,8 +1,8 @@
-#include "reproduce/figure_script.hpp"
+#include "report/figure_script.hpp"
 
 #include <fmt/format.h>
 
-namespace twin::reproduce {
+namespace twin::report {
 namespace {
 
 constexpr int kTitle = 58;    // height of what stands above the panels [pixels]
@@ -97,4 +97,4 @@ std::string figure_script(const std::string& name, const std::string& title,
   return text + "  unset multiplot\n  unset output\n}\n";
 }
 
-}  // namespace twin::reproduce
+}  // namespace twin::report
