@@ -30,16 +30,19 @@ struct Options {
   bool quiet = false;
 };
 
-/// Options that say what is planned: program, machine file, settings, feedrate, interpolator.
-void add_planning_options(CLI::App& command, Options& options);
-/// The part of them that is about the machine: --machine, --set, --interpolator.
+/// The NC program and --feedrate-mm-per-min.
+void add_program_options(CLI::App& command, Options& options);
+/// --feedrate-mm-per-min alone.
+void add_feedrate_option(CLI::App& command, Options& options,
+                         const std::string& text = "Feedrate in place of the program's F words");
+/// --machine and --set.
 void add_machine_options(CLI::App& command, Options& options);
+/// --interpolator.
+void add_interpolator_option(CLI::App& command, Options& options);
 /// --hal.
 void add_hal_option(CLI::App& command, Options& options);
-/// Options of convert: program, dialect, output file, machine file, settings, feedrate.
-void add_convert_options(CLI::App& command, Options& options);
-/// Options that say where results go and which.
-void add_result_options(CLI::App& command, Options& options);
+/// --out, --no-plots, --quiet. @param folder  below renders, where results go without --out
+void add_result_options(CLI::App& command, Options& options, const std::string& folder = "PROGRAM");
 /// --video and --camera.
 void add_video_options(CLI::App& command, Options& options);
 

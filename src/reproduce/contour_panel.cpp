@@ -4,13 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "report/value_range.hpp"
 #include "reproduce/sensitive_corners.hpp"
 
 namespace twin::reproduce {
 namespace {
 
-constexpr double kDrop = 0.15;  // of the programmed feedrate, by which a corner shows [-]
+using report::feedrate_axis;
+using report::kPanelWidth;
+using report::Panel;
+
+constexpr double kDrop = 0.15;      // of the programmed feedrate, by which a corner shows [-]
+constexpr double kOnePlace = 0.02;  // of the path's extent: corners that share a letter [-]
 
 std::vector<Moment> moments_of(const trace::Table& table) {
   std::vector<Moment> motion;
@@ -36,7 +43,7 @@ std::vector<Sign> signs_of(const std::vector<Moment>& corners, double extent) {
   std::vector<Sign> signs;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto same = std::ranges::find_if(signs, [&](const Sign& sign) {
-      return (sign.corner.point - corners[i].point).norm() < 0.02 * extent;
+      return (sign.corner.point - corners[i].point).norm() < kOnePlace * extent;
     });
     if (same != signs.end()) {
       same->text += ", " + corner_letter(i);
@@ -47,14 +54,68 @@ std::vector<Sign> signs_of(const std::vector<Moment>& corners, double extent) {
   return signs;
 }
 
-/// The letter beside its place on the contour, on the outer side of the bend.
-std::string contour_sign(const Sign& sign, const std::vector<Moment>& motion, double extent) {
-  constexpr double kAround = 0.1;  // [s]
+/// Letters beside the contour, clear of it and of each other.
+class SignPlaces {
+ public:
+  SignPlaces(const std::vector<Moment>& motion, const std::vector<Moment>& corners, double extent)
+      : corners_(corners), extent_(extent) {
+    for (const Moment& moment : motion) {
+      if (taken_.empty() || (moment.point - taken_.back()).norm() > 0.01 * extent) {
+        taken_.push_back(moment.point);
+      }
+    }
+  }
+
+  /// The place around a corner with the most room.
+  Vec2 place(const Sign& sign) {
+    constexpr int kDirections = 32;
+    const double half_width = 0.014 * extent_ * static_cast<double>(sign.text.size() - 1);
+    Vec2 best = sign.corner.point;
+    double most = -1.0;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kDirections;
+      Vec2 at = sign.corner.point + 0.062 * extent_ * Vec2(std::cos(angle), std::sin(angle));
+      at.x() += std::cos(angle) * half_width;
+      const double room = std::min(clearance(at, half_width), 0.5 * from_others(at, sign.corner));
+      if (room > most * 1.02) {
+        most = room;
+        best = at;
+      }
+    }
+    taken_.push_back(best);
+    return best;
+  }
+
+ private:
+  /// Distance of a text of some width from what is there.
+  double clearance(const Vec2& at, double half_width) const {
+    double least = HUGE_VAL;
+    for (const Vec2& other : taken_) {
+      const Vec2 apart = other - at;
+      const double beside = std::max(0.0, std::abs(apart.x()) - half_width);
+      least = std::min(least, std::hypot(beside, apart.y()));
+    }
+    return least;
+  }
+
+  /// Distance from the other corners: a letter has to be nearest to its own.
+  double from_others(const Vec2& at, const Moment& own) const {
+    double least = HUGE_VAL;
+    for (const Moment& corner : corners_) {
+      if ((corner.point - own.point).norm() >= kOnePlace * extent_) {
+        least = std::min(least, (corner.point - at).norm());
+      }
+    }
+    return least;
+  }
+
+  const std::vector<Moment>& corners_;
+  double extent_;
+  std::vector<Vec2> taken_;
+};
+
+std::string contour_sign(const Sign& sign, const Vec2& at, double extent) {
   const Vec2& place = sign.corner.point;
-  const Vec2 chord_middle =
-      0.5 * (point_at(motion, sign.corner.t - kAround) + point_at(motion, sign.corner.t + kAround));
-  const Vec2 outwards = (place - chord_middle).normalized();
-  const Vec2 at = place + 0.055 * extent * outwards;
   return fmt::format(
       "  set label '{}' at {:.3f}, {:.3f} center front\n"
       "  set object circle at {:.3f}, {:.3f} size {:.3f} front fillstyle solid fillcolor rgb "
@@ -88,7 +149,7 @@ Panel contour_panel(const std::vector<Moment>& motion, const std::vector<Moment>
   low -= margin;
   high += margin;
   const double height = std::clamp(kPanelWidth * (high - low).y() / (high - low).x(), 300.0, 800.0);
-  Panel panel{"(a) contour, start of motion and feedrate-sensitive corners",
+  Panel panel{"(a) contour, feedrate-sensitive corners",
               "x [mm]",
               "y [mm]",
               "",
@@ -98,8 +159,9 @@ Panel contour_panel(const std::vector<Moment>& motion, const std::vector<Moment>
       "  set size ratio -1\n  set xrange [{:.3f}:{:.3f}]\n"
       "  set yrange [{:.3f}:{:.3f}]\n",
       low.x(), high.x(), low.y(), high.y());
+  SignPlaces places(motion, corners, extent);
   for (const Sign& sign : signs_of(corners, extent)) {
-    panel.settings += contour_sign(sign, motion, extent);
+    panel.settings += contour_sign(sign, places.place(sign), extent);
   }
   return panel.settings += direction(motion, extent, 0.3), panel;
 }
@@ -113,32 +175,32 @@ Panel feedrate_panel(const std::vector<Moment>& corners, const std::string& data
               "  set size noratio\n",
               fmt::format("'{}.csv' using 't_s':'feedrate_mm_per_s' with lines linestyle 1", data),
               270};
-  panel.settings += fmt::format("  set xrange [{:.3f}:{:.3f}]\n  set yrange [0:{:.3f}]\n",
-                                window.begin, window.end, 1.12 * feedrate);
+  panel.settings += fmt::format("  set xrange [{:.3f}:{:.3f}]\n", window.begin, window.end) +
+                    feedrate_axis(feedrate, true);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Moment& corner = corners[i];
     if (corner.t < window.begin || corner.t > window.end) {
       continue;
     }
-    const bool has_room = corner.feedrate > 0.2 * feedrate;
-    panel.settings += fmt::format("  set label '{}' at {:.3f}, {:.3f} {} front offset {}\n",
-                                  corner_letter(i), corner.t, corner.feedrate,
-                                  has_room ? "center" : "left", has_room ? "0, -0.7" : "0.4, 0.3");
+    panel.settings += fmt::format("  set label '{}' at {:.3f}, {:.3f} center front\n",
+                                  corner_letter(i), corner.t, corner.feedrate - 0.1 * feedrate);
   }
   return panel;
 }
 
 }  // namespace
 
-std::vector<Panel> contour_panels(const trace::Table& table, const std::string& data,
-                                  double feedrate) {
+std::vector<report::Panel> contour_panels(const trace::Table& table, const std::string& data,
+                                          double feedrate) {
   const std::vector<Moment> motion = moments_of(table);
   if (motion.empty()) {
     return {};
   }
   const std::vector<Moment> corners = sensitive_corners(motion, kDrop * feedrate);
   const Window all{motion.front().t, motion.back().t};
-  const Window part = most_violent(motion, 0.12 * (all.end - all.begin));
+  const double duration = 0.12 * (all.end - all.begin);
+  const Window violent = most_violent(motion, duration);
+  const Window part{violent.begin - 0.05 * duration, violent.end + 0.05 * duration};
   std::vector<Panel> panels{contour_panel(motion, corners, data),
                             feedrate_panel(corners, data, feedrate, all),
                             feedrate_panel(corners, data, feedrate, part)};

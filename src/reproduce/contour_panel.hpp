@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reproduce/figure_script.hpp"
+#include "report/figure_script.hpp"
 #include "trace/decimator.hpp"
 
 namespace twin::reproduce {
@@ -14,7 +14,7 @@ namespace twin::reproduce {
 /// @param table     columns t_s, x_cmd_mm, y_cmd_mm, feedrate_mm_per_s
 /// @param data      name of the data file of that table, without extension
 /// @param feedrate  programmed [mm/s]
-std::vector<Panel> contour_panels(const trace::Table& table, const std::string& data,
-                                  double feedrate);
+std::vector<report::Panel> contour_panels(const trace::Table& table, const std::string& data,
+                                          double feedrate);
 
 }  // namespace twin::reproduce

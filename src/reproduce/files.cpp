@@ -6,7 +6,7 @@
 
 #include "reproduce/counts.hpp"
 #include "reproduce/figure_kinds.hpp"
-#include "reproduce/render_grid.hpp"
+#include "reproduce/table_grids.hpp"
 
 namespace twin::reproduce {
 namespace {

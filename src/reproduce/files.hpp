@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "report/album.hpp"
 #include "reproduce/reproduction.hpp"
 
 /// Texts of the files that a reproduction leaves.
@@ -20,14 +21,12 @@ std::string json_text(const Reproduction& reproduction);
 /// tables.md: the tables, the counts, what differs.
 std::string markdown_text(const Reproduction& reproduction);
 
-/// A picture on the page.
-struct Picture {
-  std::string name;     ///< of its files in the folder figures, as in "fig12_oxalis"
-  std::string caption;  ///< below it
-};
-
 /// index.html: the same with the pictures.
-std::string page_text(const Reproduction& reproduction, const std::vector<Picture>& pictures);
+std::string page_text(const Reproduction& reproduction,
+                      const std::vector<report::Picture>& pictures);
+
+/// The measured figures that are more than 30 % off as published, row by row; one sentence.
+std::string unreached(const Reproduction& reproduction);
 
 /// Why our figures differ from the published ones, one sentence or two each, with figures of these
 /// runs.

@@ -2,10 +2,12 @@
 
 #include "reproduce/figure_kinds.hpp"
 #include "reproduce/files.hpp"
-#include "reproduce/render_grid.hpp"
+#include "reproduce/table_grids.hpp"
 
 namespace twin::reproduce {
 namespace {
+
+using report::escape_html;
 
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
@@ -30,12 +32,12 @@ figcaption { font-size: .87em; color: #555 } li { margin: .35em 0 }
 <body>
 )";
 
-std::string figures_html(const std::vector<Picture>& pictures) {
+std::string figures_html(const std::vector<report::Picture>& pictures) {
   if (pictures.empty()) {
     return "";
   }
   std::string text = "<h2>Figures 12 to 19</h2>\n<div class=\"figures\">\n";
-  for (const Picture& picture : pictures) {
+  for (const report::Picture& picture : pictures) {
     text += fmt::format(
         "<figure><a href=\"figures/{0}.svg\"><img src=\"figures/{0}.png\" alt=\"{1}\"></a>"
         "<figcaption>{1}</figcaption></figure>\n",
@@ -46,7 +48,8 @@ std::string figures_html(const std::vector<Picture>& pictures) {
 
 }  // namespace
 
-std::string page_text(const Reproduction& reproduction, const std::vector<Picture>& pictures) {
+std::string page_text(const Reproduction& reproduction,
+                      const std::vector<report::Picture>& pictures) {
   std::string text(kHead);
   text += fmt::format(
       "<h1>Published figures beside ours</h1>\n<p>{}; our machine: {}, simulated. A ratio is ours "

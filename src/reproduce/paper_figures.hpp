@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "reproduce/files.hpp"
+#include "report/album.hpp"
 #include "reproduce/reproduction.hpp"
 
 namespace twin::reproduce {
@@ -21,7 +21,7 @@ namespace twin::reproduce {
 /// The first of each pair is of the oxalis, the second of the dolphin.
 ///
 /// @param folder  is made
-Expected<std::vector<Picture>> draw_figures(const Reproduction& reproduction,
-                                            const std::filesystem::path& folder);
+Expected<std::vector<report::Picture>> draw_figures(const Reproduction& reproduction,
+                                                    const std::filesystem::path& folder);
 
 }  // namespace twin::reproduce

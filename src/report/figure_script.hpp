@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace twin::reproduce {
+namespace twin::report {
 
 /// One of the diagrams below each other in a figure.
 struct Panel {
@@ -25,4 +25,4 @@ inline constexpr int kPanelWidth = 810;
 std::string figure_script(const std::string& name, const std::string& title,
                           const std::vector<Panel>& panels);
 
-}  // namespace twin::reproduce
+}  // namespace twin::report

@@ -1,4 +1,4 @@
-#include "reproduce/render_grid.hpp"
+#include "report/grid.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <sstream>
 
-namespace twin::reproduce {
+namespace twin::report {
 namespace {
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -110,14 +110,15 @@ std::string to_markdown(const Grid& grid) {
     text += fmt::format(" {} |", head);
     rule += " ---: |";
   }
-  text += " more than 30 % off |\n" + rule + " --- |\n";
+  text += grid.note_head.empty() ? "\n" : fmt::format(" {} |\n", grid.note_head);
+  text += rule + (grid.note_head.empty() ? "\n" : " --- |\n");
   for (const Line& line : grid.lines) {
     text += fmt::format("| {} | {} |", line.row, line.what);
     for (const Cell& cell : line.cells) {
       const std::string_view bold = cell.mark == Mark::kOutside ? "**" : "";
       text += fmt::format(" {}{}{} |", bold, cell.text, bold);
     }
-    text += fmt::format(" {} |\n", line.note);
+    text += grid.note_head.empty() ? "\n" : fmt::format(" {} |\n", line.note);
   }
   return text + "\n";
 }
@@ -161,9 +162,9 @@ std::string to_html(const Grid& grid) {
                           escape_html(cell.text));
     }
     text += fmt::format("<td class=\"note\">{}{}</td></tr>\n",
-                        line.note.empty() ? "" : "more than 30 % off: ", escape_html(line.note));
+                        line.note.empty() ? "" : grid.note_head + ": ", escape_html(line.note));
   }
   return text + "</table>\n";
 }
 
-}  // namespace twin::reproduce
+}  // namespace twin::report

@@ -1,15 +1,15 @@
-#include "reproduce/figure_script.hpp"
+#include "report/figure_script.hpp"
 
 #include <fmt/format.h>
 
-namespace twin::reproduce {
+namespace twin::report {
 namespace {
 
 constexpr int kTitle = 58;    // height of what stands above the panels [pixels]
 constexpr int kCaption = 52;  // above each panel
-constexpr int kAxis = 112;    // below each panel: numbers and label
+constexpr int kAxis = 114;    // below each panel: numbers and label
 constexpr int kLeft = 150;    // of the panels
-constexpr int kFont = 24;     // [points of gnuplot's pixels]
+constexpr int kFont = 22;     // [points of gnuplot's pixels]
 
 /// A gnuplot string constant; a quote is written twice.
 std::string quoted(const std::string& text) {
@@ -89,10 +89,12 @@ std::string figure_script(const std::string& name, const std::string& title,
   for (const Panel& panel : panels) {
     top += kCaption;
     text += drawing(panel, top, height);
-    text += "  unset label\n  unset arrow\n  unset object\n  set autoscale\n  set autoscale xfix\n";
+    text +=
+        "  unset label\n  unset arrow\n  unset object\n  set ytics autofreq\n  set autoscale\n  "
+        "set autoscale xfix\n";
     top += panel.height + kAxis;
   }
   return text + "  unset multiplot\n  unset output\n}\n";
 }
 
-}  // namespace twin::reproduce
+}  // namespace twin::report

@@ -1,4 +1,4 @@
-#include "reproduce/grid.hpp"
+#include "reproduce/table_grids.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,11 @@
 
 namespace twin::reproduce {
 namespace {
+
+using report::Cell;
+using report::Grid;
+using report::Line;
+using report::Mark;
 
 std::string title_of(const Reproduction& reproduction, int table) {
   switch (table) {
@@ -55,19 +60,21 @@ Line ratios(const std::string& what, const Answer& answer, Of of) {
 
 /// Our lines of one variant.
 void add_ours(Grid& grid, const Answer& answer, const std::string& title, int repeats) {
-  grid.lines.push_back(line(title + ", one run", answer, [&](std::size_t i, int decimals) {
+  grid.lines.push_back(line(title, answer, [&](std::size_t i, int decimals) {
     return Cell{fmt::format("{:.{}f}", answer.single[i], decimals)};
   }));
   grid.lines.push_back(ratios("  ratio", answer, Of::kSingle));
   if (!is_measured(answer.published.table) || answer.repeats.empty()) {
     return;  // what is planned does not depend on the phases of the table
   }
-  grid.lines.push_back(line(
-      fmt::format("{}, mean of {} (sd)", title, repeats), answer, [&](std::size_t i, int decimals) {
-        return Cell{fmt::format("{:.{}f} ({:.{}f})", answer.repeats[i].mean, decimals,
-                                answer.repeats[i].deviation, decimals)};
+  grid.lines.push_back(
+      line(fmt::format("  mean of {}", repeats), answer, [&](std::size_t i, int decimals) {
+        return Cell{fmt::format("{:.{}f}", answer.repeats[i].mean, decimals)};
       }));
-  grid.lines.push_back(ratios("  ratio", answer, Of::kMean));
+  grid.lines.push_back(line("  their sd", answer, [&](std::size_t i, int decimals) {
+    return Cell{fmt::format("{:.{}f}", answer.repeats[i].deviation, decimals)};
+  }));
+  grid.lines.push_back(ratios("  ratio of mean", answer, Of::kMean));
 }
 
 Line counts_line(const std::string& row, const std::string& what, const Counts& counts) {
@@ -82,18 +89,19 @@ Line counts_line(const std::string& row, const std::string& what, const Counts& 
 
 }  // namespace
 
-Mark mark_of(double ours, double published) {
+report::Mark mark_of(double ours, double published) {
   for (std::size_t i = 0; i < kShares.size(); ++i) {
     if (is_within(ours, published, kShares[i])) {
-      return static_cast<Mark>(i + 1);
+      return static_cast<report::Mark>(i + 1);
     }
   }
-  return Mark::kOutside;
+  return report::Mark::kOutside;
 }
 
-Grid grid_of_table(const Reproduction& reproduction, int table) {
-  Grid grid;
+report::Grid grid_of_table(const Reproduction& reproduction, int table) {
+  report::Grid grid;
   grid.title = title_of(reproduction, table);
+  grid.note_head = "more than 30 % off";
   for (const FigureKind& kind : columns_of(table)) {
     grid.head.push_back(kind.unit.empty() ? std::string(kind.name)
                                           : fmt::format("{} {}", kind.name, kind.unit));
@@ -121,8 +129,8 @@ Grid grid_of_table(const Reproduction& reproduction, int table) {
   return grid;
 }
 
-Grid grid_of_counts(const Reproduction& reproduction) {
-  Grid grid;
+report::Grid grid_of_counts(const Reproduction& reproduction) {
+  report::Grid grid;
   grid.title = "Figures of Tables 4 and 5 within 10, 20 and 30 % of the published ones";
   grid.head = {"10 %", "20 %", "30 %", "of", "time, largest deviation"};
   for (const Variant& variant : reproduction.variants) {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "compare/comparison.hpp"
+#include "report/album.hpp"
+
+namespace twin::compare {
+
+/// Draws the comparison as PNG and SVG with data and gnuplot scripts.
+///
+///   compare      feedrate and contour error of the interpolators over time, their machining times
+///                and contour errors as bars
+///   fluctuation  feedrate fluctuation of the parameter updates over time; of programs with curves
+///
+/// @param folder  is made
+Expected<std::vector<report::Picture>> draw_figures(const Comparison& comparison,
+                                                    const std::filesystem::path& folder);
+
+}  // namespace twin::compare

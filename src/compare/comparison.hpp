@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/run_jobs.hpp"
+#include "core/limits.hpp"
+
+/// The interpolators side by side on one program.
+namespace twin::compare {
+
+/// What is compared, and on which machine.
+struct Request {
+  std::filesystem::path program;
+  std::vector<std::filesystem::path> curve_programs;  ///< further ones, for the fluctuation alone
+  std::filesystem::path machine_file;
+  std::vector<std::string> settings;  ///< section.key=value, for all
+  std::optional<double> feedrate;     ///< replaces the program's F words [mm/s]
+  std::filesystem::path folder;       ///< exists; gets a folder with the trace of each run
+  batch::Options running;
+};
+
+/// One interpolator's run.
+struct Contestant {
+  std::string interpolator;  ///< "nurbs", "bezier", "linear"
+  metrics::Summary summary;
+  std::filesystem::path folder;  ///< with its trace.csv
+  double planning_time = 0.0;    ///< of planning alone, read to planned segment, wall clock [s]
+};
+
+/// Feedrate fluctuation of the set points under one parameter update.
+struct Fluctuation {
+  std::string program;           ///< file name
+  std::string feedrate_rule;     ///< "constant", or that of the machine file
+  std::string parameter_update;  ///< "taylor1", "taylor2", "rk4", "corrected"
+  metrics::ShareFigures shares;
+  std::filesystem::path folder;  ///< with the trace.csv of the plan
+};
+
+struct Comparison {
+  std::string program;  ///< file name
+  std::string machine;
+  std::string hal;
+  Limits limits;
+  double period = 0.0;  ///< [s]
+  std::vector<Contestant> contestants;
+  std::vector<Fluctuation> fluctuations;  ///< by program, rule, update; of programs with curves
+};
+
+/// Runs a program under each interpolator, side by side, and plans it under each parameter update
+/// with the feedrate rule of the machine file and at constant feedrate.
+///
+/// Planning is timed by itself, one after the other, the best of three.
+Expected<Comparison> compare(const Request& request);
+
+}  // namespace twin::compare

@@ -1,0 +1,103 @@
+#include "compare/envelope.hpp"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+
+#include "core/vec.hpp"
+#include "metrics/feedrate_fluctuation.hpp"
+#include "trace/csv_reader.hpp"
+
+namespace twin::compare {
+namespace {
+
+void add_row(trace::Table& table, double t, double value) {
+  table.values.push_back(t);
+  table.values.push_back(value);
+}
+
+}  // namespace
+
+trace::Table envelope(const trace::Table& table, std::size_t pieces) {
+  trace::Table result{2, {}};
+  if (table.rows() == 0) {
+    return result;
+  }
+  const double begin = table.at(0, 0);
+  const double stretch = (table.at(table.rows() - 1, 0) - begin) / static_cast<double>(pieces);
+  std::size_t row = 0;
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const double end = begin + stretch * static_cast<double>(piece + 1);
+    const bool is_last = piece + 1 == pieces;
+    double largest = 0.0;
+    const std::size_t first = row;
+    for (; row < table.rows() && (is_last || table.at(row, 0) < end); ++row) {
+      largest = row == first ? table.at(row, 1) : std::max(largest, table.at(row, 1));
+    }
+    if (row > first) {
+      add_row(result, end - 0.5 * stretch, largest);
+    }
+  }
+  return result;
+}
+
+Expected<trace::Table> read_contour_error(const std::filesystem::path& trace) {
+  auto reader = trace::CsvReader::open(trace);
+  if (!reader) {
+    return tl::unexpected(std::move(reader.error()));
+  }
+  if (auto chosen = reader->select(std::array<std::string_view, 2>{"t_s", "contour_error_um"});
+      !chosen) {
+    return tl::unexpected(std::move(chosen.error()));
+  }
+  trace::Table table{2, {}};
+  std::array<double, 2> row{};
+  for (;;) {
+    auto has_row = reader->next(row);
+    if (!has_row) {
+      return tl::unexpected(std::move(has_row.error()));
+    }
+    if (!*has_row) {
+      return table;
+    }
+    add_row(table, row[0], row[1]);
+  }
+}
+
+Expected<trace::Table> read_fluctuation(const std::filesystem::path& trace, double period) {
+  auto reader = trace::CsvReader::open(trace);
+  if (!reader) {
+    return tl::unexpected(std::move(reader.error()));
+  }
+  constexpr std::array<std::string_view, 5> kColumns{"t_s", "x_cmd_mm", "y_cmd_mm", "z_cmd_mm",
+                                                     "feedrate_mm_per_s"};
+  if (auto chosen = reader->select(kColumns); !chosen) {
+    return tl::unexpected(std::move(chosen.error()));
+  }
+  trace::Table table{2, {}};
+  std::deque<std::array<double, 5>> window;
+  std::array<double, 5> row{};
+  for (;;) {
+    auto has_row = reader->next(row);
+    if (!has_row) {
+      return tl::unexpected(std::move(has_row.error()));
+    }
+    if (!*has_row) {
+      return table;
+    }
+    window.push_back(row);
+    if (window.size() < 4) {
+      continue;
+    }
+    metrics::FeedrateFluctuation one_period(period);
+    for (const auto& [t, x, y, z, feedrate] : window) {
+      one_period.add({x, y, z}, feedrate);
+    }
+    if (one_period.shares().count() > 0) {
+      add_row(table, 0.5 * (window[1][0] + window[2][0]), 100.0 * one_period.shares().max());
+    }
+    window.pop_front();
+  }
+}
+
+}  // namespace twin::compare

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "compare/comparison.hpp"
+#include "report/grid.hpp"
+
+namespace twin::compare {
+
+/// Figures of the interpolators, a column each, and the limits of the machine.
+report::Grid grid_of_interpolators(const Comparison& comparison);
+
+/// Feedrate fluctuation, a column each parameter update; empty where no program has curves.
+report::Grid grid_of_fluctuations(const Comparison& comparison);
+
+/// compare.csv: figure,unit,nurbs,bezier,linear
+std::string interpolators_csv(const Comparison& comparison);
+
+/// fluctuation.csv: program,feedrate_rule,parameter_update,max_percent,rms_percent
+std::string fluctuations_csv(const Comparison& comparison);
+
+/// compare.json
+std::string json_text(const Comparison& comparison);
+
+/// compare.md
+std::string markdown_text(const Comparison& comparison);
+
+}  // namespace twin::compare

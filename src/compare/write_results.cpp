@@ -1,0 +1,37 @@
+#include "compare/write_results.hpp"
+
+#include <array>
+#include <utility>
+
+#include "compare/compare_figures.hpp"
+#include "compare/texts.hpp"
+#include "core/atomic_file.hpp"
+
+namespace twin::compare {
+
+Expected<void> write_results(const Comparison& comparison, const report::Workshop& workshop,
+                             bool draws) {
+  std::vector<std::string> names;
+  if (draws) {
+    if (auto drawn = draw_figures(comparison, workshop.folder() / "figures"); !drawn) {
+      return tl::unexpected(std::move(drawn.error()));
+    }
+    names.emplace_back("figures");
+  } else {
+    workshop.discard_older(std::array<std::string, 1>{"figures"});
+  }
+  const std::pair<const char*, std::string> texts[] = {
+      {"compare.csv", interpolators_csv(comparison)},
+      {"fluctuation.csv", fluctuations_csv(comparison)},
+      {"compare.json", json_text(comparison)},
+      {"compare.md", markdown_text(comparison)}};
+  for (const auto& [name, text] : texts) {
+    if (auto written = write_whole_file(workshop.folder() / name, text); !written) {
+      return written;
+    }
+    names.emplace_back(name);
+  }
+  return workshop.deliver(names);
+}
+
+}  // namespace twin::compare

@@ -1,0 +1,78 @@
+#include "report/album.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/atomic_file.hpp"
+#include "plot/gnuplot.hpp"
+#include "trace/csv_file.hpp"
+
+namespace twin::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostRows = 12000;  // of a figure's data
+
+}  // namespace
+
+Expected<Album> Album::open(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) {
+    return file_error(folder, "make this folder", code.value());
+  }
+  return Album(folder);
+}
+
+Expected<trace::Table> Album::copy_data(const fs::path& csv, const std::string& name,
+                                        std::span<const std::string_view> columns) const {
+  auto table = trace::load_decimated(csv, columns, kMostRows);
+  if (!table) {
+    return table;
+  }
+  if (auto written = write_data(name, columns, *table); !written) {
+    return tl::unexpected(std::move(written.error()));
+  }
+  return table;
+}
+
+Expected<void> Album::write_data(const std::string& name, std::span<const std::string_view> columns,
+                                 const trace::Table& table) const {
+  auto file =
+      trace::CsvFile::create(folder_ / (name + ".csv"), folder_ / (name + ".csv.tmp"), columns);
+  if (!file) {
+    return tl::unexpected(std::move(file.error()));
+  }
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    if (auto written = file->write(table.row(i)); !written) {
+      return written;
+    }
+  }
+  return file->commit();
+}
+
+Expected<void> Album::add(const std::string& name, const std::string& title,
+                          const std::vector<Panel>& panels) {
+  scripts_.push_back(name + ".gp");
+  pictures_.push_back({name, title});
+  return write_whole_file(folder_ / scripts_.back(), figure_script(name, title, panels));
+}
+
+Expected<std::vector<Picture>> Album::draw() {
+  if (auto drawn = plot::run_gnuplot(folder_, scripts_); !drawn) {
+    return tl::unexpected(std::move(drawn.error()));
+  }
+  for (const Picture& picture : pictures_) {
+    for (const char* extension : {".png", ".svg"}) {
+      std::error_code code;
+      if (fs::file_size(folder_ / (picture.name + extension), code) == 0 || code) {
+        return fail(ErrorCode::kFile, "gnuplot did not write picture " + picture.name + extension);
+      }
+    }
+  }
+  std::ranges::sort(pictures_, {}, &Picture::name);
+  return std::move(pictures_);
+}
+
+}  // namespace twin::report
