@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hal/mujoco/table_settings.hpp"
+
 namespace twin::identify {
 namespace {
 
@@ -42,6 +44,9 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine,
   AxisSetup setup = axis_setup(machine, axis_);
   setup.axis.travel = kFarTravel;
   setup.axis.drive.hum_phase += hum_phase_[record];
+  if (!data.has_volts()) {
+    setup.axis.dac_bits = hal::kMaxDacBits;  // steps of a converter would make the residual rough
+  }
   AxisModel model(setup, data.command.front().position);
   model.settle(data.command.front().position);
   servo::AxisServo servo(setup.servo, mm_per_s_per_volt(setup.axis), setup.period);
