@@ -188,7 +188,7 @@ void AxisFitter::judge_and_hold() {
     if (!take(places, judgement) || (options_.stop != nullptr && options_.stop->load())) {
       return;
     }
-    polish(15);
+    polish(has_volts() ? 20 : 60);
   }
 }
 
