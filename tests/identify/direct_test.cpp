@@ -35,7 +35,7 @@ TEST(Quantum, IsTheStepOfARoundedSignal) {
 }
 
 TEST(Quantum, IsNotSeenInASmoothSignal) {
-  EXPECT_FALSE(quantum_of(sine(5000, 1e-3, 0.7, 20.0)));
+  EXPECT_FALSE(quantum_of(sine(5000, 1e-3, 0.7123, 20.0)));
   EXPECT_FALSE(quantum_of(std::vector<double>(1000, 1.0)));
 }
 
