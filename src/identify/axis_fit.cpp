@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "identify/axis_fitter.hpp"
+#include "identify/direct.hpp"
 #include "identify/least_squares.hpp"
 #include "identify/minimise.hpp"
 
@@ -123,6 +124,12 @@ void AxisFitter::polish(int iterations, int least_rank) {
   current_ = set.with_units(current_, {fit.x.data(), static_cast<std::size_t>(fit.x.size())});
 }
 
+/// Brings the phases of the hum in further records up to date.
+void AxisFitter::align() {
+  problem_.set_base(current_);
+  align_hum(problem_);
+}
+
 /// One global search from where the fit stands, and the local one after it.
 void AxisFitter::search(int number, const config::MachineFile& begin) {
   const config::MachineFile best = std::exchange(current_, begin);
@@ -222,8 +229,12 @@ AxisFit AxisFitter::run() {
   report(0.05);
   const config::MachineFile begin = current_;
   polish(10, kCoarseRank);
+  align();
   polish(has_volts() ? 20 : 60);
+  align();
   search_further(begin);
+  align();
+  polish(20);
   judge_and_hold();
   estimate_gains();
   fit_.residual_rms = rms_of(current_);

@@ -28,6 +28,7 @@ class AxisFitter {
   void estimate_quantum();
   void estimate_gains();
   void estimate_hum();
+  void align();
   void search(int number, const config::MachineFile& begin);
   void search_further(const config::MachineFile& begin);
   void polish(int iterations, int least_rank = 0);

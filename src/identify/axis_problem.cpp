@@ -38,12 +38,12 @@ AxisProblem::AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<A
   }
 }
 
-Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine,
-                                        std::size_t record) const {
+Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std::size_t record,
+                                        double hum_phase) const {
   const AxisRecord& data = records_[record];
   AxisSetup setup = axis_setup(machine, axis_);
   setup.axis.travel = kFarTravel;
-  setup.axis.drive.hum_phase += hum_phase_[record];
+  setup.axis.drive.hum_phase += hum_phase;
   if (!data.has_volts()) {
     setup.axis.dac_bits = hal::kMaxDacBits;  // steps of a converter would make the residual rough
   }
@@ -60,6 +60,12 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine,
     result.setConstant(kUnstable);
   }
   return result;
+}
+
+double AxisProblem::cost(std::size_t record, double hum_phase) const {
+  Eigen::VectorXd values = difference(base_, record, hum_phase);
+  filter(values, base_.period);
+  return values.squaredNorm();
 }
 
 Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,
