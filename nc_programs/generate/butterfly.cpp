@@ -75,4 +75,24 @@ ProgramFile butterfly_program() {
   return {"butterfly.nc", nc.end_of_program()};
 }
 
+ProgramFile butterfly_nurbs_program() {
+  const std::vector<double> w = weights();
+  NcText nc;
+  nc.comment("butterfly: published NURBS of degree 3, 51 control points, as G06.2");
+  nc.comment("K knot, R weight; straight approach from X0 Y0 and straight return");
+  nc.comment("made by twin_generate_programs, see README.md; starts at X0 Y0 Z0");
+  nc.start_of_program(3000.0);
+  nc.line_to(kPoints.front());
+  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+    nc.raw(fmt::format("{}K{:g} X{:.3f} Y{:.3f} R{:g}", i == 0 ? "G06.2 P4 " : "", kKnots[i],
+                       kPoints[i].x(), kPoints[i].y(), w[i]));
+  }
+  for (std::size_t i = kPoints.size(); i < kKnots.size(); ++i) {
+    nc.raw(fmt::format("K{:g}", kKnots[i]));
+  }
+  nc.raw("G01");
+  nc.line_to(Point2::Zero());
+  return {"butterfly_nurbs.nc", nc.end_of_program()};
+}
+
 }  // namespace twin::programs

@@ -12,4 +12,7 @@ RationalCurve butterfly_curve();
 /// butterfly.nc: X0 Y0 -> start, the curve in chords that deviate 1 um at most, straight back.
 ProgramFile butterfly_program();
 
+/// butterfly_nurbs.nc: the curve itself, by control points, knots and weights.
+ProgramFile butterfly_nurbs_program();
+
 }  // namespace twin::programs

@@ -8,7 +8,8 @@ namespace twin::programs {
 
 std::vector<ProgramFile> all_programs() {
   return {outline_program(oxalis()), outline_program(dolphin()), butterfly_program(),
-          circle_program(),          square_program(),           mixed_program()};
+          butterfly_nurbs_program(), circle_program(),           square_program(),
+          mixed_program(),           identify_program()};
 }
 
 }  // namespace twin::programs

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cli/commands.hpp"
+#include "cli/identify_options.hpp"
 #include "cli/usage.hpp"
 
 namespace {
@@ -40,20 +41,14 @@ using twin::cli::Options;
 struct Commands {
   CLI::App* run = nullptr;
   CLI::App* plan = nullptr;
+  CLI::App* circle = nullptr;
   CLI::App* check = nullptr;
+  CLI::App* convert = nullptr;
   CLI::App* render = nullptr;
   CLI::App* compare = nullptr;
   CLI::App* reproduce = nullptr;
+  CLI::App* identify = nullptr;
 };
-
-void add_hal_option(CLI::App& command, Options& options) {
-  command
-      .add_option("--hal", options.hal,
-                  "Machine: mujoco is the simulated table, ideal has position = set point")
-      ->check(CLI::IsMember({"mujoco", "ideal"}))
-      ->type_name("NAME")
-      ->capture_default_str();
-}
 
 void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   CLI::App* const run = app.add_subcommand(
@@ -61,7 +56,7 @@ void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   twin::cli::add_planning_options(*run, options);
   twin::cli::add_result_options(*run, options);
   twin::cli::add_video_options(*run, options);
-  add_hal_option(*run, options);
+  twin::cli::add_hal_option(*run, options);
   run->add_flag("--realtime", options.realtime, "Keep to the wall clock");
 
   CLI::App* const plan =
@@ -70,6 +65,24 @@ void add_run_and_plan(CLI::App& app, Options& options, Commands& commands) {
   twin::cli::add_result_options(*plan, options);
   commands.run = run;
   commands.plan = plan;
+}
+
+void add_circle(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const circle = app.add_subcommand(
+      "circle", "Circular test after ISO 230-4: both senses, deviations, reversal spikes");
+  circle->add_option("--radius-mm", options.radius_mm, "Radius of the circle about X0 Y0")
+      ->type_name("R")
+      ->capture_default_str();
+  circle->add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min, "Feedrate [3000]")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("F");
+  twin::cli::add_machine_options(*circle, options);
+  twin::cli::add_hal_option(*circle, options);
+  circle->add_option("--out", options.out, "Folder of the results [renders/circle]")
+      ->type_name("DIR");
+  circle->add_flag("--no-plots", options.no_plots, "Write no figure");
+  circle->add_flag("--quiet", options.quiet, "Print errors only");
+  commands.circle = circle;
 }
 
 void add_check_and_render(CLI::App& app, Options& options, Commands& commands) {
@@ -110,7 +123,8 @@ void add_compare(CLI::App& app, Options& options, Commands& commands) {
   CLI::App* const compare = app.add_subcommand(
       "compare", "The interpolators side by side on one program; the parameter updates too");
   twin::cli::add_program_options(*compare, options);
-  add_hal_option(*compare, options);
+  twin::cli::add_machine_file_options(*compare, options);
+  twin::cli::add_hal_option(*compare, options);
   compare->add_option("--out", options.out, "Folder of the results [renders/PROGRAM_compare]")
       ->type_name("DIR");
   compare->add_flag("--no-plots", options.no_plots, "Write no figures");
@@ -121,15 +135,7 @@ void add_compare(CLI::App& app, Options& options, Commands& commands) {
 void add_reproduce(CLI::App& app, Options& options, Commands& commands) {
   CLI::App* const reproduce = app.add_subcommand(
       "reproduce", "Tables 1 to 5 and Figs. 12 to 19 of Wang and Yau's paper beside ours");
-  reproduce
-      ->add_option("--machine", options.machine, "Machine file: a file, or the name of one in mjcf")
-      ->type_name("FILE.toml")
-      ->capture_default_str();
-  reproduce
-      ->add_option("--set", options.settings, "Change a setting of the machine file (repeatable)")
-      ->type_name("SECTION.KEY=VALUE")
-      ->take_all()
-      ->expected(1);
+  twin::cli::add_machine_file_options(*reproduce, options);
   reproduce
       ->add_option("--repeats", options.repeats, "Runs a row with other encoder and hum phases")
       ->check(CLI::Range(0, 1000))
@@ -142,12 +148,23 @@ void add_reproduce(CLI::App& app, Options& options, Commands& commands) {
   commands.reproduce = reproduce;
 }
 
-Commands add_commands(CLI::App& app, Options& options) {
+void add_convert(CLI::App& app, Options& options, Commands& commands) {
+  CLI::App* const convert = app.add_subcommand(
+      "convert", "Write a program as NURBS blocks of a control; runs of short blocks are fitted");
+  twin::cli::add_convert_options(*convert, options);
+  commands.convert = convert;
+}
+
+Commands add_commands(CLI::App& app, Options& options,
+                      twin::cli::IdentifyOptions& identify_options) {
   Commands commands;
   add_run_and_plan(app, options, commands);
+  add_circle(app, options, commands);
   add_check_and_render(app, options, commands);
   add_compare(app, options, commands);
   add_reproduce(app, options, commands);
+  add_convert(app, options, commands);
+  commands.identify = twin::cli::add_identify_command(app, options, identify_options);
   return commands;
 }
 
@@ -162,8 +179,9 @@ int main(int argc, char** argv) try {
   app.set_version_flag("--version", "twin " TWIN_VERSION);
   app.require_subcommand(1);
   Options options;
+  IdentifyOptions identify_options;
 
-  const Commands commands = add_commands(app, options);
+  const Commands commands = add_commands(app, options, identify_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -181,6 +199,9 @@ int main(int argc, char** argv) try {
   if (commands.plan->parsed()) {
     return report(plan_command(options, stop_requested));
   }
+  if (commands.circle->parsed()) {
+    return report(circle_command(options, stop_requested));
+  }
   if (commands.check->parsed()) {
     return report(check_command(options));
   }
@@ -189,6 +210,12 @@ int main(int argc, char** argv) try {
   }
   if (commands.reproduce->parsed()) {
     return report(reproduce_command(options, stop_requested));
+  }
+  if (commands.convert->parsed()) {
+    return report(convert_command(options));
+  }
+  if (commands.identify->parsed()) {
+    return report(identify_command(options, identify_options, stop_requested));
   }
   return report(render_command(options));
 } catch (const std::exception& error) {

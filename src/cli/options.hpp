@@ -18,8 +18,10 @@ struct Options {
   std::string hal = "mujoco";
   std::string interpolator;  ///< empty: that of the machine file
   std::optional<double> feedrate_mm_per_min;
+  double radius_mm = 20.0;            ///< of the circular test
   std::vector<std::string> settings;  ///< section.key=value
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
+  std::string dialect;                ///< of convert; then `out` is a file
   std::string camera = "iso";
   int repeats = 10;  ///< of the runs of reproduce, with other phases
   bool video = false;
@@ -28,11 +30,18 @@ struct Options {
   bool quiet = false;
 };
 
-/// Options that say what is planned and on which machine: program, machine file, settings,
-/// feedrate.
+/// Program and feedrate.
 void add_program_options(CLI::App& command, Options& options);
-/// The same and the interpolator.
+/// --machine, --set.
+void add_machine_file_options(CLI::App& command, Options& options);
+/// The same and --interpolator.
+void add_machine_options(CLI::App& command, Options& options);
+/// Options that say what is planned: program, feedrate, machine file, settings, interpolator.
 void add_planning_options(CLI::App& command, Options& options);
+/// --hal.
+void add_hal_option(CLI::App& command, Options& options);
+/// Options of convert: program, dialect, output file, machine file, settings, feedrate.
+void add_convert_options(CLI::App& command, Options& options);
 /// Options that say where results go and which.
 void add_result_options(CLI::App& command, Options& options);
 /// --video and --camera.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "gcode/programmed_curve.hpp"
 #include "gcode/reader.hpp"
 #include "metrics/block_distance.hpp"
 #include "trace/pen.hpp"
@@ -57,6 +58,22 @@ class ThinnedOutline {
   std::size_t stride_ = 1;
 };
 
+/// Everything of a block but its start.
+void add_block(const gcode::Block& block, ThinnedOutline& outline) {
+  if (block.motion == gcode::Motion::kNurbs) {
+    for (const nurbs::CurvatureSample& sample : block.nurbs->samples) {
+      outline.add(block.nurbs->curve.position(sample.u).head<2>());
+    }
+    return;
+  }
+  const int pieces = block.motion == gcode::Motion::kArc
+                         ? static_cast<int>(std::ceil(block.arc.sweep / kChordAngle))
+                         : 1;
+  for (int i = 1; i <= pieces; ++i) {
+    outline.add(metrics::point_at(block, static_cast<double>(i) / pieces).head<2>());
+  }
+}
+
 std::vector<Vec2> read_outline(const std::filesystem::path& program, bool skips_lifted) {
   ThinnedOutline outline;
   gcode::ReaderOptions options;
@@ -79,12 +96,7 @@ std::vector<Vec2> read_outline(const std::filesystem::path& program, bool skips_
       outline.add(block.start.head<2>());
       is_apart = false;
     }
-    const int pieces = block.motion == gcode::Motion::kArc
-                           ? static_cast<int>(std::ceil(block.arc.sweep / kChordAngle))
-                           : 1;
-    for (int i = 1; i <= pieces; ++i) {
-      outline.add(metrics::point_at(block, static_cast<double>(i) / pieces).head<2>());
-    }
+    add_block(block, outline);
   }
   return outline.finish();
 }

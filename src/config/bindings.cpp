@@ -44,6 +44,9 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "tool radius; for contact_speed only"});
   list.push_back({section, "tool_side", "", choice(p.tool_side, {"left", "right"}), 0.0, 0.0,
                   "side of the surface on which the tool is, G41 or G42; for contact_speed only"});
+  list.push_back({section, "acceleration_profile", "",
+                  choice(p.acceleration_profile, {"trapezoidal", "s_curve", "fir"}), 0.0, 0.0,
+                  "how the feedrate changes from one value to another"});
   list.push_back({section, "min_segments", "", &s.min_segments, 2.0, 1e3,
                   "fewest blocks fitted into one curve"});
   list.push_back(

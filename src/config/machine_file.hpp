@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +46,8 @@ Expected<MachineFile> parse_machine_file(std::string_view text, const std::files
 /// range.
 ///
 /// Reading it back gives the same values.
-std::string to_toml(const MachineFile& machine);
+/// @param comment  replaces the comment of a key ("table.x.moving_mass_kg") where it returns one
+std::string to_toml(const MachineFile& machine,
+                    const std::function<std::string(const std::string&)>& comment = {});
 
 }  // namespace twin::config

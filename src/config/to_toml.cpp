@@ -5,7 +5,8 @@
 
 namespace twin::config {
 
-std::string to_toml(const MachineFile& machine) {
+std::string to_toml(const MachineFile& machine,
+                    const std::function<std::string(const std::string&)>& comment) {
   MachineFile copy = machine;  // the bindings want something to point at
   std::string text;
   std::string section;
@@ -16,8 +17,12 @@ std::string to_toml(const MachineFile& machine) {
     }
     std::string range = range_text(binding);
     range = range.empty() ? "" : "(" + range + ")";
-    text += fmt::format("{:<46} # {}{}{}\n", binding.key() + " = " + value_text(binding),
-                        binding.doc, binding.doc.empty() || range.empty() ? "" : " ", range);
+    std::string remark = comment ? comment(binding.path()) : std::string();
+    if (remark.empty()) {
+      remark = fmt::format("{}{}{}", binding.doc, binding.doc.empty() || range.empty() ? "" : " ",
+                           range);
+    }
+    text += fmt::format("{:<46} # {}\n", binding.key() + " = " + value_text(binding), remark);
   }
   return text;
 }

@@ -28,18 +28,26 @@ enum class FeedrateRule : std::uint8_t {
 /// Side of the workpiece's surface on which the tool is, seen along the path: G41, G42.
 enum class ToolSide : std::uint8_t { kLeft, kRight };
 
+/// How the feedrate changes from one value to another; feedrate/ramp.hpp says how each does.
+enum class AccelerationProfile : std::uint8_t {
+  kTrapezoidal,  ///< fastest within A_max and J_max
+  kSCurve,       ///< without constant acceleration
+  kFir,          ///< constant acceleration, then a moving average
+};
+
 /// The first-order servo model that the planner believes in (Eqs. 1, 4, 16 of the paper).
 ///
 /// These are the planning gains; the loop that runs has servo gains of its own (servo::Gains).
 /// With it go the rules by which the feedrate is planned.
 struct PlanningModel {
-  double kp = 207.207;            ///< position gain Kp [1/s]
-  double kf = 0.34;               ///< velocity feedforward gain Kf, 0 <= Kf < 1 [-]
+  double kp = 282.555;            ///< position gain Kp [1/s]
+  double kf = 0.1;                ///< velocity feedforward gain Kf, 0 <= Kf < 1 [-]
   double circular_error = 0.005;  ///< circular contouring error eps_ss of Eq. 4 [mm]
   double corner_error = 0.01;     ///< corner error eps_max of Eqs. 1, 16 [mm]
   FeedrateRule feedrate_rule = FeedrateRule::kAuto;
   double tool_radius = 0.0;              ///< for kContactSpeed [mm]
   ToolSide tool_side = ToolSide::kLeft;  ///< for kContactSpeed
+  AccelerationProfile acceleration_profile = AccelerationProfile::kTrapezoidal;
 };
 
 }  // namespace twin

@@ -1,6 +1,7 @@
 #include "feedrate/envelope.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace twin::feedrate {
@@ -8,6 +9,7 @@ namespace {
 
 constexpr double kPlaceRounding = 1e-9;  // [mm]
 constexpr double kSameFeedrate = 1e-9;   // relative
+constexpr std::size_t kLowerings = 4;    // of limits by zone, after which there is no plan
 
 double highest_limit(std::span<const LimitZone> zones, double from, double to) {
   double highest = 0.0;
@@ -26,13 +28,26 @@ bool is_inside(double s, const Interval& interval) {
 }  // namespace
 
 bool Envelope::plan(std::span<const LimitZone> zones, const Knot& start, const Knot& end) {
-  zones_ = zones;
-  humps_.clear();
-  pending_.clear();
+  given_ = zones_ = zones;
   if (!is_reachable(start, end, limits_)) {
     return false;
   }
-  pending_.push_back({start, end, 0, zones.size(), std::numeric_limits<double>::infinity()});
+  for (std::size_t lowered = 0; lowered <= kLowerings * zones.size(); ++lowered) {
+    is_lowered_ = false;
+    if (settle_all(start, end)) {
+      return true;
+    }
+    if (!is_lowered_) {
+      return false;
+    }
+  }
+  return false;
+}
+
+bool Envelope::settle_all(const Knot& start, const Knot& end) {
+  humps_.clear();
+  pending_.clear();
+  pending_.push_back({{start}, {end}, 0, zones_.size(), std::numeric_limits<double>::infinity()});
   while (!pending_.empty()) {
     const Piece piece = pending_.back();
     pending_.pop_back();
@@ -44,9 +59,11 @@ bool Envelope::plan(std::span<const LimitZone> zones, const Knot& start, const K
 }
 
 bool Envelope::settle(const Piece& piece) {
+  const Knot& a = piece.a.knot;
+  const Knot& b = piece.b.knot;
   const auto zones = zones_.subspan(piece.first, piece.last - piece.first);
-  const double cap = std::min(piece.cap, highest_limit(zones, piece.a.s, piece.b.s));
-  const Hump hump = make_hump(piece.a, piece.b, cap, limits_);
+  const double cap = std::min(piece.cap, highest_limit(zones, a.s, b.s));
+  const Hump hump = make_hump(a, b, cap, limits_);
   std::size_t worst = zones.size();
   Interval fast{};
   for (std::size_t i = 0; i < zones.size(); ++i) {
@@ -71,7 +88,8 @@ bool Envelope::settle(const Piece& piece) {
   if ((enters_fast || leaves_fast) && split(piece, piece.first + worst, enters_fast, leaves_fast)) {
     return true;
   }
-  if (zone.limit < std::max(piece.a.v, piece.b.v) * (1.0 - kSameFeedrate)) {
+  if (zone.limit < std::max(a.v, b.v) * (1.0 - kSameFeedrate)) {
+    is_lowered_ = lower_knot(piece, zone);
     return false;
   }
   Piece lower = piece;
@@ -80,10 +98,30 @@ bool Envelope::settle(const Piece& piece) {
   return true;
 }
 
+bool Envelope::lower_knot(const Piece& piece, const LimitZone& zone) {
+  const bool is_a = piece.a.knot.v > piece.b.knot.v;
+  const auto& [fast, owner] = is_a ? piece.a : piece.b;
+  const Knot& slow = is_a ? piece.b.knot : piece.a.knot;
+  if (owner == kNone) {
+    return false;
+  }
+  // From the slower knot to the zone's far side, and from there to the place of the faster one.
+  const double side = is_a ? zone.begin : zone.end;
+  const double between = std::min(zone.limit, ramp_reach(slow.v, std::abs(side - slow.s), limits_));
+  const double reached = ramp_reach(between, std::abs(fast.s - side), limits_);
+  if (zones_.data() != lowered_.data()) {
+    lowered_.assign(zones_.begin(), zones_.end());
+    zones_ = lowered_;
+  }
+  double& limit = lowered_[owner].limit;
+  limit = std::min(limit, reached < fast.v ? reached : zone.limit);
+  return true;
+}
+
 bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bool leaves_fast) {
   const LimitZone& zone = zones_[index];
-  const Knot& a = piece.a;
-  const Knot& b = piece.b;
+  const Knot& a = piece.a.knot;
+  const Knot& b = piece.b.knot;
   Knot in{zone.begin, std::min(zone.limit, ramp_reach(a.v, zone.begin - a.s, limits_))};
   Knot out{zone.end, std::min(zone.limit, ramp_reach(b.v, b.s - zone.end, limits_))};
   const bool is_place = zone.end - zone.begin <= kPlaceRounding;
@@ -98,27 +136,27 @@ bool Envelope::split(const Piece& piece, std::size_t index, bool enters_fast, bo
   } else {
     out.v = std::min(out.v, ramp_reach(a.v, out.s - a.s, limits_));
   }
-  in.is_at_limit = in.v == zone.limit;
-  out.is_at_limit = out.v == zone.limit;
+  in.is_at_limit = in.v == given_[index].limit;
+  out.is_at_limit = out.v == given_[index].limit;
   // Pieces are pushed last first, so that they are settled in path order.
   if (enters_fast && leaves_fast) {
     if (!is_reachable(a, in, limits_) || !is_reachable(out, b, limits_)) {
       return false;
     }
-    pending_.push_back({out, b, index + 1, piece.last, piece.cap});
+    pending_.push_back({{out, index}, piece.b, index + 1, piece.last, piece.cap});
     if (!is_place) {
-      pending_.push_back({in, out, index, index + 1, piece.cap});
+      pending_.push_back({{in, index}, {out, index}, index, index + 1, piece.cap});
     }
-    pending_.push_back({a, in, piece.first, index, piece.cap});
+    pending_.push_back({piece.a, {in, index}, piece.first, index, piece.cap});
     return true;
   }
-  const Knot& knot = enters_fast ? in : out;
+  const PieceEnd end{enters_fast ? in : out, index};
   const std::size_t border = enters_fast ? index : index + 1;
-  if (!is_reachable(a, knot, limits_) || !is_reachable(knot, b, limits_)) {
+  if (!is_reachable(a, end.knot, limits_) || !is_reachable(end.knot, b, limits_)) {
     return false;
   }
-  pending_.push_back({knot, b, border, piece.last, piece.cap});
-  pending_.push_back({a, knot, piece.first, border, piece.cap});
+  pending_.push_back({end, piece.b, border, piece.last, piece.cap});
+  pending_.push_back({piece.a, end, piece.first, border, piece.cap});
   return true;
 }
 

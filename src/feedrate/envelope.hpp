@@ -25,9 +25,13 @@ namespace twin::feedrate {
 ///      hump is too fast only inside, or a knot there cannot be reached from both ends with no
 ///      acceleration, lower the hump's cap), and do the same for the pieces.
 /// Zones with low limits are settled first, and every new knot lowers the feedrate everywhere, so a
-/// zone that was kept stays kept; a hump is the fastest motion between its knots. The limits of the
-/// method: a falling or rising staircase of limits is taken one step at a time wherever the steps
-/// bind, a = 0 at each, which is feasible but slower than gliding along it.
+/// zone that was kept stays kept; a hump is the fastest motion between its knots. That is so where
+/// a ramp to a lower feedrate is slower everywhere than one to a higher. The ramps of s_curve are
+/// not: their jerk is lower for a larger change. There a zone that was kept may have to be lowered
+/// below a knot that is settled, which then cannot be reached any more; the limit of that knot is
+/// lowered to what can be, and planning starts anew. The limits of the method: a falling or rising
+/// staircase of limits is taken one step at a time wherever the steps bind, a = 0 at each, which is
+/// feasible but slower than gliding along it.
 class Envelope {
  public:
   explicit Envelope(const RampLimits& limits) : limits_(limits) {}
@@ -41,20 +45,34 @@ class Envelope {
   const std::vector<Hump>& humps() const noexcept { return humps_; }
 
  private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  struct PieceEnd {
+    Knot knot;
+    std::size_t zone = kNone;  // whose limit the knot keeps; none at the ends of the plan
+  };
+
   struct Piece {
-    Knot a;
-    Knot b;
+    PieceEnd a;
+    PieceEnd b;
     std::size_t first;  // zones [first, last) lie between a and b
     std::size_t last;
     double cap;  // largest feedrate allowed on the piece besides its zones [mm/s]
   };
 
+  bool settle_all(const Knot& start, const Knot& end);
   bool settle(const Piece& piece);
   /// @returns false, with nothing done, where a knot could not be reached
   bool split(const Piece& piece, std::size_t zone, bool enters_fast, bool leaves_fast);
+  /// Lowers the limit of the faster knot of a piece that passes a zone too fast.
+  /// @returns false, with nothing done, where that is an end of the plan
+  bool lower_knot(const Piece& piece, const LimitZone& zone);
 
   RampLimits limits_;
-  std::span<const LimitZone> zones_;
+  std::span<const LimitZone> given_;
+  std::span<const LimitZone> zones_;  // given_, or lowered_
+  std::vector<LimitZone> lowered_;
+  bool is_lowered_ = false;  // since planning started anew
   std::vector<Piece> pending_;
   std::vector<Hump> humps_;
 };

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "feedrate/chord_limit.hpp"
 #include "feedrate/contact_limit.hpp"
-#include "feedrate/curvature_limit.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -16,9 +16,9 @@ FeedrateRule chosen(FeedrateRule rule, FeedrateRule automatic) {
 
 }  // namespace
 
-FeedrateRules::FeedrateRules(const Limits& limits, const PlanningModel& model,
-                             const PathSettings& path, double period)
-    : limits_(limits),
+FeedrateRules::FeedrateRules(Limits limits, const PlanningModel& model, const PathSettings& path,
+                             double period)
+    : limits_(std::move(limits)),
       model_(model),
       on_curves_(chosen(model.feedrate_rule, path.curves == CurveKind::kBezier
                                                  ? FeedrateRule::kConstant
@@ -27,14 +27,14 @@ FeedrateRules::FeedrateRules(const Limits& limits, const PlanningModel& model,
       chord_error_(path.chord_error),
       period_(period) {}
 
-double FeedrateRules::limit_at(const Place& at, double feedrate, bool is_fitted) const noexcept {
+double FeedrateRules::limit_by(FeedrateRule rule, const Place& at, double feedrate) const noexcept {
   double limit = feedrate;
-  switch (is_fitted ? on_curves_ : elsewhere_) {
-    case FeedrateRule::kConstant:
-      return feedrate;
+  switch (rule) {
     case FeedrateRule::kAuto:
     case FeedrateRule::kServoModel:
       return curvature_feedrate(at.curvature, feedrate, model_, limits_);
+    case FeedrateRule::kConstant:
+      return feedrate;
     case FeedrateRule::kChordError:
       limit = std::min(feedrate, chord_error_feedrate(at.curvature, chord_error_, period_));
       break;

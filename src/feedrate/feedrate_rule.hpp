@@ -2,6 +2,7 @@
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
+#include "feedrate/curvature_limit.hpp"
 #include "feedrate/place.hpp"
 
 namespace twin::feedrate {
@@ -19,12 +20,16 @@ namespace twin::feedrate {
 class FeedrateRules {
  public:
   /// @param period  interpolation period [s]
-  FeedrateRules(const Limits& limits, const PlanningModel& model, const PathSettings& path,
-                double period);
+  FeedrateRules(Limits limits, const PlanningModel& model, const PathSettings& path, double period);
 
   /// Limit at a place of a fitted curve, or of an arc or line [mm/s].
   /// @param feedrate  programmed feedrate V_NC > 0 [mm/s]
-  double limit_at(const Place& at, double feedrate, bool is_fitted) const noexcept;
+  double limit_at(const Place& at, double feedrate, bool is_fitted) const noexcept {
+    const FeedrateRule rule = is_fitted ? on_curves_ : elsewhere_;
+    return rule == FeedrateRule::kServoModel
+               ? curvature_feedrate(at.curvature, feedrate, model_, limits_)
+               : limit_by(rule, at, feedrate);
+  }
 
   /// Whether `level` and `turning` of a place count, not only its curvature.
   bool needs_turning() const noexcept {
@@ -32,6 +37,8 @@ class FeedrateRules {
   }
 
  private:
+  double limit_by(FeedrateRule rule, const Place& at, double feedrate) const noexcept;
+
   Limits limits_;
   PlanningModel model_;
   FeedrateRule on_curves_;

@@ -12,7 +12,8 @@ constexpr double kDistanceRounding =
 /// Peak v of a hump of length d without hold: ramp_distance(va, v) + ramp_distance(v, vb) = d.
 ///
 /// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap;
-/// regula falsi with bisection where it stalls (Illinois rule).
+/// regula falsi with bisection where it stalls (Illinois rule). Where it jumps over d, at the
+/// larger end feedrate, that is the result.
 double peak_without_hold(double va, double vb, double d, double cap,
                          const RampLimits& limits) noexcept {
   const auto excess = [&](double v) {
@@ -62,9 +63,14 @@ Hump make_hump(const Knot& a, const Knot& b, double cap, const RampLimits& limit
     hump.peak = peak_without_hold(a.v, b.v, d, hump.peak, limits);
     hump.up = ramp_distance(a.v, hump.peak, limits);
     hump.down = ramp_distance(hump.peak, b.v, limits);
-    const double scale = hump.up + hump.down > 0.0 ? d / (hump.up + hump.down) : 1.0;
-    hump.up *= scale;  // rounding of the root, spread over the ramps
-    hump.down *= scale;
+    // A higher peak is out of reach where even the smallest ramp is too long: the rest is a hold.
+    const bool is_level =
+        hump.peak == std::max(a.v, b.v) && least_ramp_time(limits) * hump.peak > 0.0;
+    const double ramps = hump.up + hump.down;
+    if (ramps > d || (ramps > 0.0 && !is_level)) {
+      hump.up *= d / ramps;  // rounding of the root, spread over the ramps
+      hump.down *= d / ramps;
+    }
   }
   return hump;
 }

@@ -11,14 +11,15 @@ struct Knot {
   bool is_at_limit = false;  ///< v is the limit of the place, not what its neighbours leave of it
 };
 
-/// The fastest motion between two knots under one cap: ramp up, hold, ramp down.
+/// The fastest motion between two knots under one cap: ramp up, hold, ramp down, the ramps as the
+/// acceleration profile has them.
 ///
 ///        peak  ________
 ///             /        \.           up    from a.s to a.s + up
 ///     a.v ___/          \           hold  at the peak feedrate
 ///                        \___ b.v   down  from b.s - down to b.s
 ///
-/// All seven phases of an S-curve where there is room for them; fewer where not.
+/// Up to seven phases; fewer where there is no room for them.
 struct Hump {
   Knot a;
   Knot b;

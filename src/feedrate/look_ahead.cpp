@@ -21,7 +21,7 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const Pat
       look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
       sink_(std::move(sink)),
-      ramp_{limits.acceleration, limits.jerk},
+      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       envelope_(ramp_),
       junctions_(limits, model, period) {}
 
@@ -94,21 +94,15 @@ void LookAhead::plan_evenly(double last) {
 /// How far a knot may be moved on and still leave room to come down, with no acceleration, to any
 /// feedrate below a lower limit before `last`, and to any at all at `last`; negative where it is
 /// too far already.
-///
-/// Of all ramps down from v the longest is not the one to rest: (v + w)/2 tau(v - w) is greatest at
-///   w = v / 3         where A is not reached, 2 v / 3 <= A^2 / J,
-///   w = A^2 / (2 J)   else.
 double LookAhead::room_after(const Knot& knot, double last) const {
-  const double worst =
-      std::min(knot.v / 3.0, 0.5 * ramp_.acceleration * ramp_.acceleration / ramp_.jerk);
-  const double longest = ramp_distance(knot.v, worst, ramp_);
+  const double longest = longest_descent(knot.v, knot.v, ramp_);
   double room = last - knot.s - longest;
   const auto from = std::partition_point(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
     return zone.end <= knot.s + kPlaceRounding;
   });
   for (auto zone = from; zone != zones_.end() && zone->begin < knot.s + longest + room; ++zone) {
     if (zone->limit < knot.v) {
-      const double down = ramp_distance(knot.v, std::min(zone->limit, worst), ramp_);
+      const double down = longest_descent(knot.v, zone->limit, ramp_);
       room = std::min(room, zone->begin - knot.s - down);
     }
   }

@@ -33,8 +33,8 @@ Phase remainder_after(const Phase& phase, double t) noexcept {
 
 namespace {
 
-/// Appends one ramp that covers `distance` from s; its shape is that of ramp_time, stretched to fit
-/// to rounding.
+/// Appends one ramp that covers `distance` from s; its shape is that of ramp_shape, stretched to
+/// fit to rounding.
 void append_ramp(double s, double v1, double v2, double distance, const RampLimits& limits,
                  std::vector<Phase>& phases) {
   if (!(distance > 0.0) || v1 == v2) {
@@ -45,7 +45,7 @@ void append_ramp(double s, double v1, double v2, double distance, const RampLimi
   const double nominal = ramp_time(delta, limits);
   const double stretch = 2.0 * distance / ((v1 + v2) * nominal);
   const double total = nominal * stretch;
-  const double turn = std::min(0.5 * nominal, limits.acceleration / limits.jerk) * stretch;
+  const double turn = ramp_shape(delta, limits).rise * stretch;
   const double hold = std::max(total - 2.0 * turn, 0.0);
   const double a = sign * delta / (turn + hold);
   Phase phase{turn, s, v1, 0.0, a / turn};

@@ -81,10 +81,11 @@ void append_segment_limits(const path::Segment& segment, double s0, const Feedra
     append_tilted_arc_limits(*arc, segment.feedrate, s0, rules, zones);
     return;
   }
-  const path::PathPoint& tight =
-      segment.begin.curvature.norm() < segment.end.curvature.norm() ? segment.end : segment.begin;
-  zones.push_back(
-      {s0, s0 + segment.length, rules.limit_at(place_from(tight), segment.feedrate, false)});
+  const double begin = segment.begin.curvature.norm();
+  const double end = segment.end.curvature.norm();
+  const Place at = rules.needs_turning() ? place_from(begin < end ? segment.end : segment.begin)
+                                         : Place{std::max(begin, end)};
+  zones.push_back({s0, s0 + segment.length, rules.limit_at(at, segment.feedrate, false)});
 }
 
 double curvature_near_end(const path::Segment& segment, bool at_end, double distance) {

@@ -1,15 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "core/vec.hpp"
 
 namespace twin::gcode {
 
+struct ProgrammedCurve;
+
 enum class Motion : std::uint8_t {
   kRapid,   ///< G00, a straight line at the rapid feedrate
   kLinear,  ///< G01
   kArc,     ///< G02, G03, with or without a helix's rise
+  kNurbs,   ///< G05.2 to G05.3, G06.2: a curve given by its control points
   kDwell,   ///< G04, and the stops of M00 and M06 (dwell 0): the path comes to rest here
 };
 
@@ -39,13 +43,14 @@ struct ArcGeometry {
 struct Block {
   Motion motion = Motion::kLinear;
   PathMode path_mode = PathMode::kContinuous;
-  Vec3 start = Vec3::Zero();  ///< [mm]
-  Vec3 end = Vec3::Zero();    ///< [mm]
-  ArcGeometry arc;            ///< used when motion is kArc
-  double feedrate = 0.0;      ///< programmed feedrate [mm/s]; 0 for kRapid and kDwell
-  double tolerance = 0.0;     ///< path tolerance of G64 P [mm]; 0: the machine's own
-  double dwell = 0.0;         ///< time at rest [s], kDwell only
-  std::int64_t line = 0;      ///< line of the program from 1
+  Vec3 start = Vec3::Zero();                     ///< [mm]
+  Vec3 end = Vec3::Zero();                       ///< [mm]
+  ArcGeometry arc;                               ///< used when motion is kArc
+  std::shared_ptr<const ProgrammedCurve> nurbs;  ///< not null when motion is kNurbs
+  double feedrate = 0.0;   ///< programmed feedrate [mm/s]; 0 for kRapid and kDwell
+  double tolerance = 0.0;  ///< path tolerance of G64 P [mm]; 0: the machine's own
+  double dwell = 0.0;      ///< time at rest [s], kDwell only
+  std::int64_t line = 0;   ///< line of the program from 1; of a NURBS its first
 };
 
 }  // namespace twin::gcode

@@ -17,6 +17,10 @@ constexpr GTable make_g_table() {
   table[10] = GCode{GWord::kLinear, GGroup::kMotion};
   table[20] = GCode{GWord::kArcClockwise, GGroup::kMotion};
   table[30] = GCode{GWord::kArcCounterClockwise, GGroup::kMotion};
+  table[52] = GCode{GWord::kNurbs, GGroup::kMotion};
+  table[53] = GCode{GWord::kNurbsEnd, GGroup::kMotion};
+  table[62] = GCode{GWord::kKnotNurbs, GGroup::kMotion};
+  table[63] = GCode{GWord::kKnotNurbsEnd, GGroup::kMotion};
   table[800] = GCode{GWord::kCancelMotion, GGroup::kMotion};
   table[40] = GCode{GWord::kDwell, GGroup::kDwell};
   table[170] = GCode{GWord::kPlaneXy, GGroup::kPlane};

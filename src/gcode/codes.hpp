@@ -13,6 +13,10 @@ enum class GWord : std::uint8_t {
   kLinear,                ///< G01
   kArcClockwise,          ///< G02
   kArcCounterClockwise,   ///< G03
+  kNurbs,                 ///< G05.2
+  kNurbsEnd,              ///< G05.3
+  kKnotNurbs,             ///< G06.2
+  kKnotNurbsEnd,          ///< G06.3
   kCancelMotion,          ///< G80
   kDwell,                 ///< G04
   kPlaneXy,               ///< G17

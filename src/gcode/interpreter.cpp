@@ -9,7 +9,12 @@ namespace twin::gcode {
 Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, LineBlocks& blocks) {
   blocks.count = 0;
   blocks.is_end = words.has(MGroup::kStop, MWord::kEnd);
+  const MotionMode before = state_.motion;
   update(state_, words, feedrate_);
+  if ((nurbs_.is_open() || state_.is_nurbs() || words.has(GGroup::kMotion)) &&
+      concerns_nurbs(words)) {
+    return execute_nurbs(words, before, line, blocks);
+  }
   if (auto checked = check_words(words, state_); !checked) {
     return checked;
   }

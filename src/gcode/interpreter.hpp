@@ -8,12 +8,14 @@
 #include "core/error.hpp"
 #include "gcode/block.hpp"
 #include "gcode/modal_state.hpp"
+#include "gcode/nurbs_collector.hpp"
 
 namespace twin::gcode {
 
 class LineWords;
 
-/// The blocks of one line: at most tool change, dwell, move and stop, in this order.
+/// The blocks of one line: at most tool change, dwell, move and stop, in this order. Whoever takes
+/// a block moves it out, so that `nurbs` is null in all of them before the next line.
 struct LineBlocks {
   std::array<Block, 4> block;
   std::size_t count = 0;
@@ -38,8 +40,16 @@ class Interpreter {
   /// @param blocks  filled with its blocks
   Expected<void> execute(const LineWords& words, std::int64_t line, LineBlocks& blocks);
 
+  /// The program ends: whether it may, here.
+  Expected<void> finish() const;
+
  private:
   Expected<void> add_move(const LineWords& words, std::int64_t line, LineBlocks& blocks);
+  bool concerns_nurbs(const LineWords& words) const noexcept;
+  Expected<void> execute_nurbs(const LineWords& words, MotionMode before, std::int64_t line,
+                               LineBlocks& blocks);
+  Expected<void> end_nurbs(const LineWords& words, MotionMode before, LineBlocks& blocks);
+  Expected<void> add_nurbs(int column, LineBlocks& blocks);
   Expected<void> shape_arc(const LineWords& words, Block& block) const;
   void add_rest(double duration, std::int64_t line, LineBlocks& blocks) const;
   Vec3 target(const LineWords& words) const noexcept;
@@ -48,6 +58,7 @@ class Interpreter {
   Vec3 position_;    // end of the last block [mm]
   Vec3 programmed_;  // where the words have led; off position_ by less than kNoLength [mm]
   std::optional<double> feedrate_;
+  NurbsCollector nurbs_;
 };
 
 }  // namespace twin::gcode

@@ -19,7 +19,7 @@ constexpr std::array<LetterKind, 26> make_kinds() {
   set("XYZIJKR", LetterKind::kDecimal);
   set("F", LetterKind::kPositive);
   set("PS", LetterKind::kNotNegative);
-  set("NT", LetterKind::kCount);
+  set("LNT", LetterKind::kCount);
   return kinds;
 }
 
@@ -41,15 +41,13 @@ std::string refused_letter(char letter) {
     case 'D':
     case 'H':
       return fmt::format("{} (offset number) is not supported: offsets are zero", letter);
-    case 'L':
-      return "L (repeat count) is not supported: expected the moves written out";
     case 'O':
       return "O (program number or subprogram) is not supported: expected one program without it";
     case 'Q':
       return "Q (second parameter of G64 or a canned cycle) is not supported";
     default:
-      return fmt::format("the letter {} is not known: expected one of F G I J K M N P R S T X Y Z",
-                         letter);
+      return fmt::format(
+          "the letter {} is not known: expected one of F G I J K L M N P R S T X Y Z", letter);
   }
 }
 

@@ -12,7 +12,7 @@ enum class LetterKind : std::uint8_t {
   kDecimal,      ///< X Y Z I J K R: any number
   kPositive,     ///< F: above zero
   kNotNegative,  ///< P, S: zero or more
-  kCount,        ///< N, T: a whole number, zero or more
+  kCount,        ///< L, N, T: a whole number, zero or more
 };
 
 /// Kind of a letter from 'A' to 'Z'.

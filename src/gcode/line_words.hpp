@@ -26,6 +26,8 @@ class LineWords {
   bool has(GGroup group, GWord word) const noexcept { return has(group) && g(group) == word; }
   bool has(MGroup group, MWord word) const noexcept { return has(group) && m(group) == word; }
 
+  bool has_m() const noexcept { return m_groups_ != 0; }
+
   /// True if the line has one of these letters, each from 'A' to 'Z'.
   bool has_any(std::string_view letters) const noexcept;
 

@@ -16,6 +16,10 @@ MotionMode motion_of(GWord word) {
       return MotionMode::kArcClockwise;
     case GWord::kArcCounterClockwise:
       return MotionMode::kArcCounterClockwise;
+    case GWord::kNurbs:
+      return MotionMode::kNurbs;
+    case GWord::kKnotNurbs:
+      return MotionMode::kKnotNurbs;
     default:
       return MotionMode::kNone;
   }

@@ -15,6 +15,8 @@ enum class MotionMode : std::uint8_t {
   kLinear,
   kArcClockwise,
   kArcCounterClockwise,
+  kNurbs,      ///< G05.2, until G05.3
+  kKnotNurbs,  ///< G06.2; stays in force behind the curve's last knot
 };
 
 /// Plane of arcs, named by its axes in right-handed order: the third axis is their cross product.
@@ -30,6 +32,9 @@ struct ModalState {
   double tolerance = 0.0;       ///< path tolerance of G64 P, 0: the machine's own [mm]
   double feedrate = 0.0;        ///< feedrate of the last F, 0 before the first [mm/s]
 
+  bool is_nurbs() const noexcept {
+    return motion == MotionMode::kNurbs || motion == MotionMode::kKnotNurbs;
+  }
   bool is_arc() const noexcept {
     return motion == MotionMode::kArcClockwise || motion == MotionMode::kArcCounterClockwise;
   }

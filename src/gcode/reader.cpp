@@ -46,9 +46,9 @@ Expected<std::optional<Block>> Reader::next() {
       return stop_with(std::move(read.error()));
     }
   }
-  const Block& block = blocks_.block[next_block_++];
+  Block& block = blocks_.block[next_block_++];
   has_moved_ = has_moved_ || block.motion != Motion::kDwell;
-  return block;
+  return std::optional<Block>(std::move(block));
 }
 
 /// Reads one line into blocks_, which is empty if the line does not move.
@@ -111,6 +111,9 @@ Expected<void> Reader::read_percent_line(std::string_view text, int column) {
 }
 
 Expected<void> Reader::finish() {
+  if (auto complete = interpreter_.finish(); !complete) {
+    return complete;
+  }
   if (has_moved_) {
     return {};
   }
@@ -125,7 +128,7 @@ tl::unexpected<Error> Reader::stop_with(Error error) {
   if (error.file.empty()) {
     error.file = name_;
   }
-  if (error.column > 0) {
+  if (error.column > 0 && error.line == 0) {
     error.line = static_cast<int>(std::min(source_.line(), kLargestLine));
   }
   blocks_.count = next_block_ = 0;

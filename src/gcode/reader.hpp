@@ -25,11 +25,11 @@ struct ReaderOptions {
 ///
 ///   file -> LineSource -> line -> Lexer -> LineWords -> Interpreter -> Block
 ///
-/// Understood: G00 to G04, G17 G18 G19, G20 G21, G40, G49, G54, G61 G61.1 G64 P, G80, G90 G91, G94,
-/// F S T N, M00 to M09, M30, comments ( ) and ;, the % lines, block delete; upper or lower case,
-/// with or without blanks between words. G17 G21 G90 G94 G64 are in force at the start, and no
-/// motion word. Whatever else a program holds is an error with line and column; nothing is ignored
-/// in silence.
+/// Understood: G00 to G04, G05.2 G05.3 and G06.2 G06.3 (NURBS, see NurbsCollector), G17 G18 G19,
+/// G20 G21, G40, G49, G54, G61 G61.1 G64 P, G80, G90 G91, G94, F S T N, M00 to M09, M30, comments (
+/// ) and ;, the % lines, block delete; upper or lower case, with or without blanks between words.
+/// G17 G21 G90 G94 G64 are in force at the start, and no motion word. Whatever else a program holds
+/// is an error with line and column; nothing is ignored in silence.
 ///
 /// A block's start is the end of the block before it, bit for bit. Moves of no length vanish.
 class Reader {

@@ -17,12 +17,13 @@ struct Refused {
   std::string_view expected;
 };
 
-constexpr std::string_view kStraight = "expected G01 and arcs, as CAM writes without it";
+constexpr std::string_view kStraight =
+    "expected G01 and arcs, or a NURBS by G05.2 to G05.3 or G06.2";
 constexpr std::string_view kWriteOut = "expected its moves written out as G00 to G03";
 constexpr std::string_view kZeroOffset = "only G54 is, with offset zero";
 
 constexpr Refused kRefusedG[] = {
-    {5.0, 5.3, "spline", kStraight},
+    {5.0, 5.1, "spline", kStraight},
     {6.0, 6.9, "spline", kStraight},
     {7.0, 7.0, "diameter programming", "expected a program for a mill"},
     {8.0, 8.0, "radius programming", "expected a program for a mill"},
@@ -89,7 +90,8 @@ std::string refused(char letter, double number, std::span<const Refused> table,
 
 std::string refused_g(double number) {
   return refused('G', number, kRefusedG,
-                 "G00 to G04, G17 to G21, G40, G49, G54, G61, G61.1, G64, G80, G90, G91 or G94");
+                 "G00 to G04, G05.2, G05.3, G06.2, G06.3, G17 to G21, G40, G49, G54, G61, G61.1, "
+                 "G64, G80, G90, G91 or G94");
 }
 
 std::string refused_m(double number) {

@@ -95,6 +95,10 @@ bool asks_for_move(const LineWords& words, const ModalState& state) noexcept {
 }
 
 Expected<void> check_words(const LineWords& words, const ModalState& state) {
+  if (words.has('L')) {
+    return fail_at(words.column('L'),
+                   "L (repeat count, or order of a NURBS) needs G05.2 on its line");
+  }
   if (words.has('P') || words.has(GGroup::kDwell)) {
     if (auto checked = check_p_and_dwell(words); !checked) {
       return checked;

@@ -1,6 +1,8 @@
 #include "identify/axis_model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "core/units.hpp"
 #include "hal/mujoco/table_settings.hpp"
@@ -109,12 +111,16 @@ std::vector<AxisRow> simulate(const AxisSetup& setup, std::span<const servo::Ref
 std::vector<servo::Reference> differentiate(std::span<const double> positions, double period) {
   std::vector<servo::Reference> result(positions.size());
   const std::size_t count = positions.size();
+  const auto at = [&](std::size_t k, std::ptrdiff_t offset) {
+    const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(k) + offset;
+    return positions[static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(place, 0, static_cast<std::ptrdiff_t>(count) - 1))];
+  };
   for (std::size_t k = 0; k < count; ++k) {
-    const double before = positions[k == 0 ? 0 : k - 1];
-    const double here = positions[k];
-    const double after = positions[k + 1 == count ? k : k + 1];
-    result[k] = {here, (after - before) / (2.0 * period),
-                 (after - 2.0 * here + before) / (period * period)};
+    const double near = at(k, 1) - at(k, -1);
+    const double far = at(k, 2) - at(k, -2);
+    result[k] = {positions[k], (8.0 * near - far) / (12.0 * period),
+                 (at(k, 1) - 2.0 * positions[k] + at(k, -1)) / (period * period)};
   }
   return result;
 }

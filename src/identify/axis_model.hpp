@@ -86,7 +86,9 @@ std::vector<AxisRow> simulate(const AxisSetup& setup, std::span<const servo::Ref
 /// Positions with the velocity and acceleration of their central differences, for set points that
 /// were recorded as positions only.
 ///
-///   v_k = (r_{k+1} - r_{k-1}) / 2 T,   a_k = (r_{k+1} - 2 r_k + r_{k-1}) / T^2,
+///   v_k = (8 (r_{k+1} - r_{k-1}) - (r_{k+2} - r_{k-2})) / 12 T,
+///   a_k = (r_{k+1} - 2 r_k + r_{k-1}) / T^2,
+/// both exact where the jerk is constant,
 /// at rest before the first and after the last.
 /// @param positions [mm]  @param period T [s]
 std::vector<servo::Reference> differentiate(std::span<const double> positions, double period);

@@ -14,10 +14,10 @@ namespace twin::identify {
 
 /// The errors of a run as Tables 4 and 5 of the paper list them.
 struct RunErrors {
-  double contour_max = 0.0;           ///< encoder against programmed path [mm]
-  double contour_rms = 0.0;           ///< [mm]
-  std::array<double, 2> axis_max{};   ///< tracking error, x and y [mm]
-  std::array<double, 2> axis_rms{};   ///< [mm]
+  double contour_max = 0.0;          ///< encoder against programmed path [mm]
+  double contour_rms = 0.0;          ///< [mm]
+  std::array<double, 2> axis_max{};  ///< tracking error, x and y [mm]
+  std::array<double, 2> axis_rms{};  ///< [mm]
 };
 
 /// A program with its set points, ready to be run again and again on changed tables.

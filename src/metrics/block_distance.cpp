@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "gcode/programmed_curve.hpp"
+#include "metrics/nurbs_distance.hpp"
+
 namespace twin::metrics {
 namespace {
 
@@ -137,6 +140,12 @@ Vec3 point_at(const Block& block, double fraction) noexcept {
   switch (block.motion) {
     case Motion::kArc:
       return evaluate(block.arc, fraction).position;
+    case Motion::kNurbs: {
+      const gcode::ProgrammedCurve& programmed = *block.nurbs;
+      const double s = fraction * programmed.arc_length.length();
+      return programmed.curve.position(
+          programmed.arc_length.u_at(programmed.curve, s, programmed.curve.u_min()));
+    }
     case Motion::kDwell:
       return block.start;
     default:
@@ -147,6 +156,9 @@ Vec3 point_at(const Block& block, double fraction) noexcept {
 double block_length(const Block& block, View view) noexcept {
   if (block.motion == Motion::kDwell) {
     return 0.0;
+  }
+  if (block.motion == Motion::kNurbs) {
+    return block.nurbs->arc_length.length();
   }
   if (block.motion != Motion::kArc) {
     return seen(block.end - block.start, view).norm();
@@ -159,6 +171,9 @@ double block_length(const Block& block, View view) noexcept {
 Place nearest(const Block& block, const Vec3& point, View view, double from, double to) noexcept {
   if (block.motion == Motion::kArc) {
     return nearest_of_arc(block, point, view, from, to);
+  }
+  if (block.motion == Motion::kNurbs) {
+    return nearest_of_nurbs(block, point, view, from, to);
   }
   if (block.motion == Motion::kDwell) {
     return place_at(block, point, view, 0.0);

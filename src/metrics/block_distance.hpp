@@ -26,7 +26,7 @@ Vec3 point_at(const gcode::Block& block, double fraction) noexcept;
 /// this view.
 ///
 /// Exact for lines, and for arcs and helices in space; seen along Z an arc about the Z axis is
-/// exact too, and a tilted one (an ellipse) has its length in space, which is longer.
+/// exact too; a tilted one (an ellipse) and a NURBS have their length in space, not less.
 /// @returns [mm]
 double block_length(const gcode::Block& block, View view) noexcept;
 

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLengthTolerance = 1e-10;  // of one interval [mm]
 constexpr double kPlaceTolerance = 1e-10;   // of u_at [mm]
 constexpr int kMaxDepth = 40;               // halvings of one span
+constexpr int kMostHalvings = 2000;         // in one span: rounding may hide the convergence
 constexpr int kMaxIterations = 60;
 constexpr double kRadius = 8.0;  // R of Eq. (1)
 
@@ -72,6 +73,7 @@ struct ArcLength::Builder {
   ArcLength& table;
   const Curve& curve;
   std::vector<CurvatureSample>* samples;
+  int halvings = 0;  // left for the span under way
 
   /// Adds an interval whose speeds at the nodes are known; returns arc lengths at its quarters.
   std::array<double, 4> append(double begin, double half, const Quartic& q,
@@ -119,7 +121,8 @@ struct ArcLength::Builder {
     const double whole = half * gauss::weighted_sum(gauss::kWeights, speeds);
     const double halves = quarter * (gauss::weighted_sum(gauss::kWeights, left) +
                                      gauss::weighted_sum(gauss::kWeights, right));
-    if (std::abs(whole - halves) > kLengthTolerance && depth < kMaxDepth) {
+    if (std::abs(whole - halves) > kLengthTolerance && depth < kMaxDepth && halvings > 0) {
+      --halvings;
       add_any(span, begin, quarter, left, depth + 1);
       add_any(span, begin + half, quarter, right, depth + 1);
       return;
@@ -150,6 +153,7 @@ void ArcLength::build(const Curve& curve, std::vector<CurvatureSample>* samples)
     if (is_cubic_) {
       builder.add_cubic(span_cubic(curve, span), u[span], half, 0);
     } else {
+      builder.halvings = kMostHalvings;
       builder.add_any(span, u[span], half, builder.speeds_on(span, u[span], half), 0);
     }
   }

@@ -3,18 +3,31 @@
 #include <algorithm>
 #include <utility>
 
+#include "gcode/programmed_curve.hpp"
+#include "nurbs/refine.hpp"
+#include "path/curve_segment.hpp"
 #include "path/short_block.hpp"
 
 namespace twin::path {
 
-Segment make_segment(const gcode::Block& block, std::int64_t number, const Limits& limits,
-                     const PlanningModel& model) {
-  Segment segment;
+namespace {
+
+/// What a segment takes over from its block.
+void set_demands(Segment& segment, const gcode::Block& block, const Limits& limits,
+                 const PlanningModel& model) {
   segment.is_rapid = block.motion == gcode::Motion::kRapid;
   segment.feedrate =
       segment.is_rapid ? limits.rapid_feedrate : std::min(block.feedrate, limits.feedrate);
   segment.corner_error = block.tolerance > 0.0 ? block.tolerance : model.corner_error;
   segment.stops_at_end = block.path_mode == gcode::PathMode::kExactStop;
+}
+
+}  // namespace
+
+Segment make_segment(const gcode::Block& block, std::int64_t number, const Limits& limits,
+                     const PlanningModel& model) {
+  Segment segment;
+  set_demands(segment, block, limits, model);
   if (block.motion == gcode::Motion::kDwell) {
     segment.dwell = block.dwell;
     segment.stops_at_end = true;
@@ -65,6 +78,11 @@ bool PathBuilder::continues_run(const gcode::Block& block) const {
 
 void PathBuilder::push(const gcode::Block& block) {
   const std::int64_t number = next_block_++;
+  if (block.motion == gcode::Motion::kNurbs) {
+    run_.finish();
+    push_nurbs(block, number);
+    return;
+  }
   if (!is_short(block)) {
     run_.finish();
     sink_(make_segment(block, number, limits_, model_));
@@ -75,6 +93,21 @@ void PathBuilder::push(const gcode::Block& block) {
   }
   run_.push(block, number);
   last_ = block;
+}
+
+/// Pieces of at most max_segments spans, cut where the curvature jumps or the tangent turns.
+void PathBuilder::push_nurbs(const gcode::Block& block, std::int64_t number) {
+  constexpr int kSmooth = 2;  // derivatives that are continuous
+  for (nurbs::Curve& piece : nurbs::split(block.nurbs->curve, {kSmooth, settings_.max_segments})) {
+    FittedCurve given;
+    given.curve = std::move(piece);
+    given.is_programmed = true;
+    measure(given);
+    Segment segment = make_curve_segment(std::move(given));
+    set_demands(segment, block, limits_, model_);
+    segment.marks.push_back({segment.length, segment.length, number, block.line});
+    sink_(std::move(segment));
+  }
 }
 
 void PathBuilder::finish() { run_.finish(); }

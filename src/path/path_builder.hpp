@@ -16,8 +16,8 @@ namespace twin::path {
 /// Turns blocks into segments, one after the other, looking no further ahead than a curve needs.
 ///
 /// Successive G01 blocks that meet the criterion for continuous short blocks (CSB, Section 2.1 of
-/// the paper) form a run; RunFitter makes curves of it. Every other block becomes the line, arc or
-/// rest that it is.
+/// the paper) form a run; RunFitter makes curves of it. Every other block becomes the line, arc,
+/// curve or rest that it is; a NURBS of many spans becomes several segments.
 class PathBuilder {
  public:
   using Sink = std::function<void(Segment&&)>;
@@ -32,6 +32,7 @@ class PathBuilder {
 
  private:
   bool is_short(const gcode::Block& block) const;
+  void push_nurbs(const gcode::Block& block, std::int64_t number);
   bool continues_run(const gcode::Block& block) const;
 
   PathSettings settings_;
@@ -43,7 +44,7 @@ class PathBuilder {
   std::int64_t next_block_ = 0;
 };
 
-/// Line, arc or rest of a single block.
+/// Line, arc or rest of a single block; not for a NURBS.
 Segment make_segment(const gcode::Block& block, std::int64_t number, const Limits& limits,
                      const PlanningModel& model);
 

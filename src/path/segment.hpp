@@ -30,11 +30,12 @@ struct Arc {
   double length = 0.0;  ///< arc length [mm]
 };
 
-/// Fitted run of short blocks with its measured arc length.
+/// Fitted run of short blocks, or part of a NURBS of the program, with its measured arc length.
 struct FittedCurve {
   nurbs::Curve curve;
   nurbs::ArcLength arc_length;
   std::vector<nurbs::CurvatureSample> curvature;  ///< ascending in s, both ends included
+  bool is_programmed = false;                     ///< it is of the program, not fitted
 };
 
 /// Where a block of the program ends on a segment.

@@ -1,38 +1,14 @@
 #include "plot/figures.hpp"
 
-#include <utility>
-
 #include "core/atomic_file.hpp"
+#include "plot/draw.hpp"
 #include "plot/figure_data.hpp"
-#include "plot/gnuplot.hpp"
 #include "plot/scripts.hpp"
 #include "trace/columns.hpp"
 
 namespace twin::plot {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// A picture that gnuplot left out although it said nothing, as on a full disk.
-Expected<void> check_pictures(const std::vector<fs::path>& pictures) {
-  for (const fs::path& picture : pictures) {
-    std::error_code error;
-    if (fs::file_size(picture, error) == 0 || error) {
-      return tl::unexpected<Error>(
-          Error{ErrorCode::kFile, "gnuplot did not write this picture", picture.string(), 0, 0});
-    }
-  }
-  return {};
-}
-
-void remove_all(const std::vector<fs::path>& files) {
-  std::error_code ignored;
-  for (const fs::path& file : files) {
-    fs::remove(file, ignored);
-  }
-}
-
-}  // namespace
 
 Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   const fs::path folder = input.directory / "plots";
@@ -46,23 +22,7 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   if (!data) {
     return tl::unexpected(data.error());
   }
-  std::vector<fs::path> pictures;
-  std::vector<std::string> names;
-  for (const Script& script : figure_scripts(input.title, *data, input.plan_only)) {
-    names.push_back(script.name + ".gp");
-    pictures.push_back(folder / (script.name + ".png"));
-    pictures.push_back(folder / (script.name + ".svg"));
-    if (auto written = write_whole_file(folder / names.back(), script.text); !written) {
-      return tl::unexpected(std::move(written.error()));
-    }
-  }
-  remove_all(pictures);  // no older picture may pass for one of this run
-  auto drawn = run_gnuplot(folder, names).and_then([&] { return check_pictures(pictures); });
-  if (!drawn) {
-    remove_all(pictures);
-    return tl::unexpected(std::move(drawn.error()));
-  }
-  return pictures;
+  return draw(folder, figure_scripts(input.title, *data, input.plan_only));
 }
 
 }  // namespace twin::plot

@@ -16,21 +16,6 @@ constexpr std::string_view kVermilion = "#D55E00";
 constexpr std::string_view kGreen = "#009E73";
 constexpr std::string_view kGrey = "#B0B0B0";
 
-/// Any text as a gnuplot string constant.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 32) {
-      result += ' ';
-    } else if (c == '\'') {
-      result += "''";
-    } else {
-      result += c;
-    }
-  }
-  return result + "'";
-}
-
 constexpr int kWidth = 1200;  // of the PNG [pixels]; the SVG is smaller by kSvgScale
 constexpr int kHeight = 900;
 constexpr double kSvgScale = 2.0 / 3.0;
@@ -227,6 +212,20 @@ Script contour_script(const std::string& title, const DataSummary& data, bool pl
 }
 
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 32) {
+      result += ' ';
+    } else if (c == '\'') {
+      result += "''";
+    } else {
+      result += c;
+    }
+  }
+  return result + "'";
+}
 
 double magnification(double extent, double largest_error_um) {
   constexpr double part = 0.05;  // of the picture

@@ -13,6 +13,9 @@ struct Script {
   std::string text;
 };
 
+/// Any text as a gnuplot string constant.
+std::string quoted(const std::string& text);
+
 /// Magnification 1, 2 or 5 times a power of ten at which the largest error spans about a twentieth
 /// of the picture.
 ///

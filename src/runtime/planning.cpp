@@ -18,8 +18,12 @@ void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
     ++figures.lines;
   } else if (std::holds_alternative<path::Arc>(segment.geometry)) {
     ++figures.arcs;
-  } else if (std::holds_alternative<path::FittedCurve>(segment.geometry)) {
+  } else if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     ++figures.curves;
+    if (curve->is_programmed) {
+      return;
+    }
+    ++figures.fitted_curves;
     for (const path::BlockMark& mark : segment.marks) {
       figures.short_length.add(mark.length);
     }

@@ -14,7 +14,8 @@ namespace twin::runtime {
 struct PlanFigures {
   std::int64_t blocks = 0;        ///< blocks of the program that move
   metrics::Running short_length;  ///< lengths of the continuous short blocks, fitted by curves [mm]
-  std::int64_t curves = 0;
+  std::int64_t curves = 0;        ///< fitted, and NURBS of the program or parts of them
+  std::int64_t fitted_curves = 0;  ///< of them, through continuous short blocks
   std::int64_t lines = 0;
   std::int64_t arcs = 0;
   double path_length = 0.0;    ///< along the segments [mm]

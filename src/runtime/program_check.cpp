@@ -5,22 +5,51 @@
 #include <cmath>
 #include <numbers>
 
+#include "gcode/programmed_curve.hpp"
 #include "metrics/block_distance.hpp"
 
 namespace twin::runtime {
 namespace {
 
 constexpr double kRounding = 1e-9;  // [mm]
+constexpr int kHalvings = 40;       // of a stretch of parameter
 
 void include(const Vec3& point, Vec3& low, Vec3& high) {
   low = low.cwiseMin(point);
   high = high.cwiseMax(point);
 }
 
+/// A curve reaches furthest along an axis where C' has no part along it; its samples stand close
+/// enough that one such place at most is between two of them.
+void include_curve(const gcode::ProgrammedCurve& programmed, Vec3& low, Vec3& high) {
+  const nurbs::Curve& curve = programmed.curve;
+  nurbs::Derivatives before = curve.derivatives(programmed.samples.front().u);
+  for (std::size_t i = 1; i < programmed.samples.size(); ++i) {
+    const nurbs::Derivatives here = curve.derivatives(programmed.samples[i].u);
+    include(here.position, low, high);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (before.first[axis] * here.first[axis] < 0.0) {
+        double from = programmed.samples[i - 1].u;
+        double to = programmed.samples[i].u;
+        for (int halving = 0; halving < kHalvings; ++halving) {
+          const double u = 0.5 * (from + to);
+          const bool is_past = curve.derivatives(u).first[axis] * here.first[axis] > 0.0;
+          (is_past ? to : from) = u;
+        }
+        include(curve.position(from), low, high);
+      }
+    }
+    before = here;
+  }
+}
+
 /// Corners of the box of one block. An arc reaches furthest along an axis where its tangent has no
 /// part along it.
 void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   include(block.end, low, high);
+  if (block.motion == gcode::Motion::kNurbs) {
+    include_curve(*block.nurbs, low, high);
+  }
   if (block.motion != gcode::Motion::kArc) {
     return;
   }

@@ -195,8 +195,8 @@ metrics::Summary Run::summarise(double wall_time) {
   summary.segments = {plan_figures_.curves + plan_figures_.lines + plan_figures_.arcs,
                       plan_figures_.curves, plan_figures_.lines, plan_figures_.arcs};
   summary.compression_factor =
-      plan_figures_.curves > 0
-          ? static_cast<double>(lengths.count()) / static_cast<double>(plan_figures_.curves)
+      plan_figures_.fitted_curves > 0
+          ? static_cast<double>(lengths.count()) / static_cast<double>(plan_figures_.fitted_curves)
           : 1.0;
   summary.path_length = plan_figures_.path_length;
   summary.planned_time = plan_figures_.time;

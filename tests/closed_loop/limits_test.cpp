@@ -19,11 +19,12 @@ struct Case {
   CurveKind curves;
   double period;  // [s]
   double doubt = kDoubt;
+  AccelerationProfile profile = AccelerationProfile::kTrapezoidal;
 };
 
 void PrintTo(const Case& tested, std::ostream* out) {
   *out << tested.program << ", " << kInterpolatorNames[static_cast<std::size_t>(tested.curves)]
-       << ", " << 1e3 * tested.period << " ms";
+       << ", " << 1e3 * tested.period << " ms, profile " << static_cast<int>(tested.profile);
 }
 
 class ProgramLimits : public test::LoopTest, public ::testing::WithParamInterface<Case> {};
@@ -32,6 +33,7 @@ TEST_P(ProgramLimits, FeedrateAccelerationAndJerkAreKept) {
   config::MachineFile file = machine();
   file.period = GetParam().period;
   file.path.curves = GetParam().curves;
+  file.planning.acceleration_profile = GetParam().profile;
   const metrics::Summary summary =
       execute(program(GetParam().program), file, nullptr, std::nullopt);
   const Limits& limits = file.limits;
@@ -51,6 +53,7 @@ TEST_P(ProgramLimits, VelocityChangesByAMaxTInAPeriodAtMostEachWay) {
   config::MachineFile file = machine();
   file.period = GetParam().period;
   file.path.curves = GetParam().curves;
+  file.planning.acceleration_profile = GetParam().profile;
   execute(program(GetParam().program), file, nullptr, std::nullopt);
   const test::TraceRows rows(folder / "out/trace.csv");
   const auto x = rows.column("x_cmd_mm");
@@ -66,17 +69,17 @@ TEST_P(ProgramLimits, VelocityChangesByAMaxTInAPeriodAtMostEachWay) {
   EXPECT_LE(largest, std::sqrt(2.0) * file.limits.acceleration * kDoubt);
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, ProgramLimits,
-                         ::testing::Values(Case{"oxalis.nc", CurveKind::kNurbs, 1e-3},
-                                           Case{"dolphin.nc", CurveKind::kNurbs, 1e-3},
-                                           Case{"butterfly.nc", CurveKind::kNurbs, 1e-3},
-                                           Case{"circle.nc", CurveKind::kNurbs, 1e-3},
-                                           Case{"square.nc", CurveKind::kNurbs, 1e-3},
-                                           Case{"mixed.nc", CurveKind::kNurbs, 1e-3},
-                                           Case{"dolphin.nc", CurveKind::kNone, 1e-3, kMoreDoubt},
-                                           Case{"mixed.nc", CurveKind::kNurbs, 4e-3},
-                                           Case{"square.nc", CurveKind::kNurbs, 0.125e-3,
-                                                kMoreDoubt}));
+INSTANTIATE_TEST_SUITE_P(
+    Programs, ProgramLimits,
+    ::testing::Values(
+        Case{"oxalis.nc", CurveKind::kNurbs, 1e-3}, Case{"dolphin.nc", CurveKind::kNurbs, 1e-3},
+        Case{"butterfly.nc", CurveKind::kNurbs, 1e-3}, Case{"circle.nc", CurveKind::kNurbs, 1e-3},
+        Case{"square.nc", CurveKind::kNurbs, 1e-3}, Case{"mixed.nc", CurveKind::kNurbs, 1e-3},
+        Case{"dolphin.nc", CurveKind::kNone, 1e-3, kMoreDoubt},
+        Case{"mixed.nc", CurveKind::kNurbs, 4e-3},
+        Case{"dolphin.nc", CurveKind::kNurbs, 1e-3, kDoubt, AccelerationProfile::kFir},
+        Case{"mixed.nc", CurveKind::kNurbs, 1e-3, kDoubt, AccelerationProfile::kFir},
+        Case{"square.nc", CurveKind::kNurbs, 0.125e-3, kMoreDoubt}));
 
 }  // namespace
 }  // namespace twin

@@ -56,6 +56,13 @@ TEST(Overrides, ChooseAFeedrateRuleByName) {
   EXPECT_THAT(refusal("planning.feedrate_rule=servo"), HasSubstr("constant, chord_error"));
 }
 
+TEST(Overrides, ChooseAnAccelerationProfileByName) {
+  MachineFile machine;
+  ASSERT_TRUE(apply_override(machine, "planning.acceleration_profile=fir"));
+  EXPECT_EQ(machine.planning.acceleration_profile, AccelerationProfile::kFir);
+  EXPECT_THAT(refusal("planning.acceleration_profile=scurve"), HasSubstr("did you mean s_curve?"));
+}
+
 TEST(Overrides, TyposSuggestTheNearestKey) {
   EXPECT_THAT(refusal("limits.jrek=1"),
               HasSubstr("unknown key limits.jrek; did you mean limits.jerk?"));

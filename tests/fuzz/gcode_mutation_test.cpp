@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "gcode/programmed_curve.hpp"
 #include "gcode/reader.hpp"
 
 namespace twin::gcode {
@@ -20,13 +21,26 @@ constexpr std::string_view kSeeds[] = {
     "%\n(seed)\nG21 G90 G17\nN10 G00 X1 Y2\nG01 Z-1 F300\nX5.125 Y-3.5\nG02 X10 Y0 I2.5 J1.5\n"
     "G03 X0 R20\nG02 I5 Z2\nG04 P0.5\nM30\n%\n",
     "G20 G91 G64 P0.001\r\nG1X.1Y.1F60S1000M3\r\nG61\r\nG18 G2 X1 Z1 R1\r\n/G19 G3 Y1 K1\r\nM0\r\n",
+    "G01 F600 X1\nG05.2 P1 L4\nX1 Y2 P1\nX3 Y2 P2\nX3 Y0 P1\nX5 Y1 P1\nG05.3\n"
+    "G06.2 P3 K0 X5 Y1 R1\nK0 X7 Y1 R0.5\nK0 X7 Y3\nK0.5 Z1 X8\nK1\nK1\nK1\nG06.3\nM30\n",
     "\xEF\xBB\xBFg0 x1;end\rg1 y2 f100 (c)\rg80\rg40 g49 g54 g94\rg1 x3 t1 m6\rm2\r",
 };
 
 constexpr std::string_view kFragments[] = {
-    "G2",  "G3 I1", "R-1", "X",     "1e9", "999999999999", "-",  ".",    "(",    ")",   ";",
-    "%",   "\n%\n", "/",   "\r",    "\n",  "\r\n",         "#1", "[",    "nan",  "inf", "G80",
-    "M30", "G91",   "G20", "G4 P1", "F0",  "I0 J0",        "K3", "G64P", "\xFF", "E",   "G1 F1 X0",
+    "G2",      "G3 I1", "R-1",
+    "X",       "1e9",   "999999999999",
+    "-",       ".",     "(",
+    ")",       ";",     "%",
+    "\n%\n",   "/",     "\r",
+    "\n",      "\r\n",  "#1",
+    "[",       "nan",   "inf",
+    "G80",     "M30",   "G91",
+    "G20",     "G4 P1", "F0",
+    "I0 J0",   "K3",    "G64P",
+    "\xFF",    "E",     "G1 F1 X0",
+    "G5.2",    "G5.3",  "G6.2",
+    "L3",      "P4",    "K1\nK1\nK1\n",
+    "X1 Y1\n", "R9",    "G6.3",
 };
 
 void mutate(std::string& text, Random& random) {
@@ -54,13 +68,23 @@ void mutate(std::string& text, Random& random) {
   }
 }
 
+bool is_sound(const ProgrammedCurve& programmed, const Block& block) {
+  const nurbs::Curve& curve = programmed.curve;
+  return curve.control_points().front() == block.start &&
+         curve.control_points().back() == block.end && programmed.arc_length.length() > 0.0 &&
+         std::isfinite(programmed.arc_length.length()) && programmed.samples.size() >= 5 &&
+         curve.position(0.5 * (curve.u_min() + curve.u_max())).allFinite();
+}
+
 bool is_sound(const Block& block) {
   const ArcGeometry& arc = block.arc;
   const bool is_arc = block.motion == Motion::kArc;
-  const bool is_feed = is_arc || block.motion == Motion::kLinear;
+  const bool is_nurbs = block.motion == Motion::kNurbs;
+  const bool is_feed = is_arc || is_nurbs || block.motion == Motion::kLinear;
   return block.start.allFinite() && block.end.allFinite() && std::isfinite(block.feedrate) &&
          block.feedrate >= 0.0 && is_feed == (block.feedrate > 0.0) && block.tolerance >= 0.0 &&
-         block.dwell >= 0.0 && block.line > 0 &&
+         block.dwell >= 0.0 && block.line > 0 && is_nurbs == (block.nurbs != nullptr) &&
+         (!is_nurbs || is_sound(*block.nurbs, block)) &&
          (!is_arc || (arc.centre.allFinite() && arc.e1.allFinite() && arc.e2.allFinite() &&
                       arc.radius > 0.0 && arc.sweep > 0.0 && arc.sweep < 6.2832));
 }

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "gcode/programmed_curve.hpp"
+
 namespace twin::gcode {
 namespace {
 
@@ -14,6 +16,20 @@ double without_minus_zero(double value) { return std::abs(value) < 5e-10 ? 0.0 :
 std::string to_text(const Vec3& point) {
   return fmt::format("({:.9f} {:.9f} {:.9f})", without_minus_zero(point.x()),
                      without_minus_zero(point.y()), without_minus_zero(point.z()));
+}
+
+std::string to_text(const nurbs::Curve& curve) {
+  std::string text = fmt::format("degree {} U", curve.degree());
+  for (const double knot : curve.knots()) {
+    text += fmt::format(" {:.6g}", knot);
+  }
+  for (std::size_t i = 0; i < curve.control_points().size(); ++i) {
+    text += fmt::format(" {}", to_text(curve.control_points()[i]));
+    if (curve.is_rational()) {
+      text += fmt::format("w{:.6g}", curve.weights()[i]);
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -59,7 +75,7 @@ std::string to_text(const Block& block) {
   if (block.motion == Motion::kDwell) {
     return fmt::format("{} dwell {} {:.9f} s", block.line, to_text(block.start), block.dwell);
   }
-  const char* const names[] = {"rapid", "linear", "arc"};
+  const char* const names[] = {"rapid", "linear", "arc", "nurbs"};
   std::string text =
       fmt::format("{} {} {} {} -> {}", block.line, names[static_cast<int>(block.motion)],
                   block.path_mode == PathMode::kContinuous ? "continuous" : "exact",
@@ -68,6 +84,9 @@ std::string to_text(const Block& block) {
     text +=
         fmt::format(" c {} n {} r {:.9f} a {:.9f}", to_text(block.arc.centre),
                     to_text(block.arc.e1.cross(block.arc.e2)), block.arc.radius, block.arc.sweep);
+  }
+  if (block.motion == Motion::kNurbs) {
+    text += " " + to_text(block.nurbs->curve);
   }
   return text + fmt::format(" F {:.9f} P {:.9f}", block.feedrate, block.tolerance);
 }

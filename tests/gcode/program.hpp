@@ -21,7 +21,8 @@ std::vector<Block> blocks_of(const std::string& text, const ReaderOptions& optio
 std::string error_of(const std::string& text, const ReaderOptions& options = {});
 
 /// A block in one line of text with 9 decimals, the same for the same geometry:
-///   line motion mode start -> end [c centre n axis r radius a sweep] F feedrate P tolerance
+///   line motion mode start -> end [degree p U knots points w weights] [c centre n axis r radius a
+///   sweep] F feedrate P tolerance
 std::string to_text(const Block& block);
 
 /// Blocks, one a line.

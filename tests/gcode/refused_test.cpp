@@ -24,8 +24,8 @@ TEST(Refused, CodesByNameWithTheirColumn) {
 
 TEST(Refused, CodesWithoutANameAreNotKnown) {
   EXPECT_EQ(error_of("G1.5"),
-            "line 1:1: G1.5 is not known: expected G00 to G04, G17 to G21, G40, G49, G54, G61, "
-            "G61.1, G64, G80, G90, G91 or G94");
+            "line 1:1: G1.5 is not known: expected G00 to G04, G05.2, G05.3, G06.2, G06.3, G17 to "
+            "G21, G40, G49, G54, G61, G61.1, G64, G80, G90, G91 or G94");
   EXPECT_THAT(error_of("G-1"), StartsWith("line 1:1: G-1 is not known"));
   EXPECT_THAT(error_of("G61.15"), StartsWith("line 1:1: G61.15 is not known"));
   EXPECT_THAT(error_of("G1000"), StartsWith("line 1:1: G1000 is not known"));
@@ -34,7 +34,8 @@ TEST(Refused, CodesWithoutANameAreNotKnown) {
 }
 
 TEST(Refused, EveryCodeIsEitherUnderstoodOrRefused) {
-  const std::string understood_g = " 0 1 2 3 4 17 18 19 20 21 40 49 54 61 61.1 64 80 90 91 94 ";
+  const std::string understood_g =
+      " 0 1 2 3 4 5.2 5.3 6.2 6.3 17 18 19 20 21 40 49 54 61 61.1 64 80 90 91 94 ";
   const std::string understood_m = " 0 1 2 3 4 5 6 7 8 9 30 ";
   for (int tenths = 0; tenths < 2000; ++tenths) {
     const std::string number = fmt::format("{}", tenths / 10.0);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/hal/position_loop.hpp"
@@ -26,34 +25,6 @@ Spread contour(const std::vector<Row>& rows, double radius) {
   return spread(rows, 0, [=](const Row& row) { return circle_error(row, radius); });
 }
 
-// Eq. 3: kappa eps = 1 - sqrt((Kf^2 w^2 + Kp^2) / (w^2 + Kp^2)). It holds for a velocity loop
-// without lag and a controller without sampling; both are made small here against 1 / Kp.
-TEST(TableAccuracy, RadialErrorOnACircleIsThatOfEquationThreeWithinOnePercent) {
-  TableParams params = faultless_table();
-  params.physics_step = 0.0125e-3;
-  for (AxisParams& axis : params.axis) {
-    axis.drive.velocity_gain_Hz = 8000.0;
-    axis.drive.integral_time = 10.0;
-  }
-  const double radius = 10.0;
-  const double speed = 50.0;
-  const double w = speed / radius;
-  for (const double kp : {20.0, 30.0}) {
-    for (const double kf : {0.0, 0.34}) {
-      const auto rows = run_circle(params, {gains(kp, kf, 0.0), gains(kp, kf, 0.0)}, radius, speed,
-                                   2.5, 0.125e-3);
-      double mean = 0.0;
-      const std::size_t turn = static_cast<std::size_t>(2.0 * std::numbers::pi / w / 0.125e-3);
-      for (std::size_t i = rows.size() - turn; i < rows.size(); ++i) {
-        mean -= circle_error(rows[i], radius) / static_cast<double>(turn);
-      }
-      const double expected =
-          radius * (1.0 - std::sqrt((kf * kf * w * w + kp * kp) / (w * w + kp * kp)));
-      EXPECT_NEAR(mean / expected, 1.0, 0.01) << "Kp " << kp << ", Kf " << kf;
-    }
-  }
-}
-
 TEST(TableAccuracy, CircleStaysWithinThePublishedErrorsAtThreeThousandMmPerMin) {
   const Spread error = contour(run_circle(default_table(), default_gains(), 20.0, 50.0, 3.0), 20.0);
   EXPECT_LT(error.rms, 10e-3);
@@ -74,14 +45,6 @@ TEST(TableAccuracy, WithoutItsFaultsTheTableIsTenTimesBetter) {
     EXPECT_LT(error.rms, 1e-3);
     EXPECT_LT(error.max, 4e-3);
   }
-}
-
-TEST(TableAccuracy, HalvingThePhysicsStepChangesTheRmsByUnderOnePercent) {
-  TableParams params = default_table();
-  const double coarse = contour(run_circle(params, default_gains(), 20.0, 50.0, 10.0), 20.0).rms;
-  params.physics_step *= 0.5;
-  const double fine = contour(run_circle(params, default_gains(), 20.0, 50.0, 10.0), 20.0).rms;
-  EXPECT_NEAR(coarse / fine, 1.0, 0.01);
 }
 
 TEST(TableAccuracy, TwoRunsGiveTheSameBytes) {

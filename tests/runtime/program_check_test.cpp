@@ -79,6 +79,16 @@ TEST_F(ProgramCheck, SeesAnArcThatBulgesOutInThePlaneOfZ) {
   EXPECT_EQ(refusal(start + "G02 F600 X30 Z40 I30\n"), "accepted");
 }
 
+TEST_F(ProgramCheck, SeesANurbsThatBulgesOutBetweenEndsInsideTheTravel) {
+  // Half of it is at Y = 0.75 * 270.
+  EXPECT_THAT(refusal("F600 G0 X0\nG05.2 P1 L4\nX0 Y270 P1\nX10 Y270 P1\nX10 Y0 P1\nG05.3\nM30\n"),
+              HasSubstr("part.nc:2: axis Y would go to 202.5000 mm"));
+  const auto inside =
+      check("F600 G0 X0\nG05.2 P1 L4\nX0 Y260 P1\nX10 Y260 P1\nX10 Y0 P1\nG05.3\nM30\n");
+  ASSERT_TRUE(inside) << to_string(inside.error());
+  EXPECT_NEAR(inside->box_max.y(), 195.0, 1e-9);
+}
+
 TEST_F(ProgramCheck, PassesOnTheReadersErrors) {
   EXPECT_THAT(refusal("G01 X1\n"), HasSubstr("part.nc:1"));
   const auto missing = check_program(folder / "none.nc", {}, limits);

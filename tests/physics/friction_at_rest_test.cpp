@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/hal/table_files.hpp"
 
-// Friction of the whole table, servo off: MuJoCo's slide and the bristle together.
+// Friction of the whole table at rest and about to move, servo off: MuJoCo's slide and the bristle
+// together.
 namespace twin::hal {
 namespace {
 
@@ -55,14 +57,34 @@ TEST_P(PushedTable, DoesNotCreepUnderAVibratingLoad) {
   EXPECT_LT(std::abs(position() - before), 0.1e-3);
 }
 
-TEST_P(PushedTable, HoldsBelowTheBreakawayForceAndSlidesAboveIt) {
-  for (int k = 0; k < 2000; ++k) {  // slowly, so that inertia adds nothing
-    pass(kPeriod, 0.95 * held * k / 2000.0);
+// A force that grows slowly, so that damping and inertia add nothing to it. Up to the elastic share
+// of the Coulomb friction the slide hangs on the bristle as on a spring.
+TEST_P(PushedTable, PreSlidingStiffnessIsThatOfTheBristleWithinOnePercent) {
+  const LugreParams& friction = params.axis[axis].friction;
+  const double rate = 2.0;  // [N/s]
+  std::array<double, 2> force{};
+  std::array<double, 2> place{};
+  double pull = 0.0;
+  for (const std::size_t i : {0U, 1U}) {
+    force[i] = (i == 0 ? 0.2 : 0.8) * friction.coulomb;
+    for (; pull < force[i]; pull += rate * kPeriod) {
+      pass(kPeriod, pull);
+    }
+    place[i] = position();
   }
-  pass(1.0, 0.95 * held);
-  EXPECT_LT(std::abs(machine.velocity(axis)), 0.01);
-  pass(1.0, 1.05 * held);
-  EXPECT_GT(machine.velocity(axis), 1.0);
+  const double stiffness = (force[1] - force[0]) / (place[1] - place[0]);
+  EXPECT_NEAR(stiffness, friction.bristle_stiffness, 0.01 * friction.bristle_stiffness);
+}
+
+TEST_P(PushedTable, BreaksAwayAtStaticFrictionWithinTwoPercent) {
+  const double rate = 1.0;  // [N/s]
+  double pull = 0.0;
+  while (machine.velocity(axis) < 0.1 * params.axis[axis].friction.stribeck_velocity &&
+         pull < 1.5 * held) {
+    pull += rate * kPeriod;
+    pass(kPeriod, pull);
+  }
+  EXPECT_NEAR(pull, held, 0.02 * held);
 }
 
 TEST_P(PushedTable, DeflectsElasticallyByForceOverBristleStiffness) {

@@ -1,0 +1,55 @@
+#include "circular/measured_turn.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "circular/circle_program.hpp"
+#include "trace/csv_reader.hpp"
+
+namespace twin::circular {
+namespace {
+
+constexpr std::size_t kFewestRows = 60;
+
+}  // namespace
+
+Expected<MeasuredTurn> read_measured_turn(const std::filesystem::path& trace) {
+  constexpr std::array<std::string_view, 6> kWanted{"line",       "feedrate_mm_per_s", "x_table_mm",
+                                                    "y_table_mm", "x_enc_mm",          "y_enc_mm"};
+  auto reader = trace::CsvReader::open(trace);
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  if (auto selected = reader->select(kWanted); !selected) {
+    return tl::unexpected(selected.error());
+  }
+  MeasuredTurn turn;
+  std::array<double, kWanted.size()> row{};
+  for (;;) {
+    const auto has_row = reader->next(row);
+    if (!has_row) {
+      return tl::unexpected(has_row.error());
+    }
+    if (!*has_row) {
+      break;
+    }
+    if (row[0] == static_cast<double>(kMeasuredLine)) {
+      turn.feedrate += row[1];
+      turn.table.emplace_back(row[2], row[3]);
+      turn.encoder.emplace_back(row[4], row[5]);
+    }
+  }
+  const std::size_t count = turn.table.size();
+  if (count < kFewestRows) {
+    return fail(ErrorCode::kProgram,
+                fmt::format("the measured turn has {} set points, and {} are needed: take a larger "
+                            "radius, a lower feedrate or a shorter interpolator.period_ms",
+                            count, kFewestRows));
+  }
+  turn.feedrate /= static_cast<double>(count);
+  return turn;
+}
+
+}  // namespace twin::circular

@@ -1,0 +1,150 @@
+#include <fmt/core.h>
+
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "config/find_file.hpp"
+#include "convert/comparison.hpp"
+#include "convert/converter.hpp"
+#include "core/atomic_file.hpp"
+#include "core/units.hpp"
+
+namespace twin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kRounding = 2e-6;  // of the coordinates in the file [mm]
+
+/// Form in which a dialect that this reader does not read is read back: the same curves with the
+/// same digits.
+constexpr std::string_view kReadable = "g6.2";
+
+struct Job {
+  fs::path program;
+  gcode::ReaderOptions reading;
+  config::MachineFile machine;
+};
+
+Expected<convert::Conversion> convert_to(const Job& job, const convert::Dialect& dialect) {
+  auto reader = gcode::Reader::open(job.program.string(), job.reading);
+  if (!reader) {
+    return tl::unexpected(reader.error());
+  }
+  auto conversion =
+      convert::convert_program(*reader, job.reading.start, job.program.filename().string(), dialect,
+                               job.machine.path, job.machine.planning, job.machine.limits);
+  if (!conversion && conversion.error().file.empty()) {
+    conversion.error().file = job.program.string();
+  }
+  return conversion;
+}
+
+/// Reads the new program back and holds it against the old one.
+Expected<convert::Deviation> check(const Job& job, const convert::Conversion& conversion) {
+  auto before = gcode::Reader::open(job.program.string(), job.reading);
+  if (!before) {
+    return tl::unexpected(before.error());
+  }
+  gcode::ReaderOptions reading;
+  reading.start = job.reading.start;
+  auto after = gcode::Reader::from_text(conversion.text, "the converted program", reading);
+  auto deviation = convert::compare_programs(*before, after, conversion.groups);
+  if (deviation && deviation->largest > deviation->tolerance + kRounding) {
+    return tl::unexpected(Error{
+        ErrorCode::kProgram,
+        fmt::format("the converted program would be {:.3f} um from this line, its tolerance "
+                    "is {:g} um; nothing was written",
+                    units::um_from_mm(deviation->largest), units::um_from_mm(deviation->tolerance)),
+        job.program.string(), static_cast<int>(deviation->line), 0});
+  }
+  return deviation;
+}
+
+Expected<convert::Deviation> check_as_readable(const Job& job, const std::string& dialect,
+                                               const convert::Conversion& conversion) {
+  if (convert::is_readable(dialect)) {
+    return check(job, conversion);
+  }
+  auto readable = convert_to(job, *convert::make_dialect(kReadable));
+  return readable ? check(job, *readable) : tl::unexpected<Error>(readable.error());
+}
+
+fs::path output_of(const Options& options, const fs::path& program,
+                   const convert::Dialect& dialect) {
+  if (!options.out.empty()) {
+    return options.out;
+  }
+  const std::string name =
+      fmt::format("{}.{}{}", program.stem().string(), dialect.name(), dialect.extension());
+  return fs::path("renders") / program.stem() / name;
+}
+
+Expected<void> write(const fs::path& file, const std::string& text) {
+  if (file.has_parent_path()) {
+    std::error_code failure;
+    fs::create_directories(file.parent_path(), failure);
+    if (failure) {
+      return file_error(file.parent_path(), "create folder", failure.value());
+    }
+  }
+  return write_whole_file(file, text);
+}
+
+void print(const Job& job, const convert::Dialect& dialect, const convert::Conversion& c,
+           const convert::Deviation& deviation) {
+  fmt::print("{} for {}\n\n", job.program.filename().string(), dialect.control());
+  fmt::print("  {:<26}{:>12}{:>12}\n", "", "before", "after");
+  fmt::print("  {:<26}{:>12}{:>12}\n", "lines of text", c.lines_before, c.lines);
+  std::int64_t made = 0;
+  for (const convert::Group& group : c.groups) {
+    made += group.made;
+  }
+  fmt::print("  {:<26}{:>12}{:>12}\n", "blocks", c.blocks, made);
+  fmt::print("  {:<26}{:>12}{:>12}\n", "of them in curves", c.fitted_blocks, c.nurbs.blocks);
+  fmt::print("  {:<26}{:>12}{:>12}\n", "control points", "", c.nurbs.control_points);
+  if (dialect.name() == "g5.2" && c.nurbs.blocks > 0) {
+    fmt::print("  curves: {} on new uniform knots, {} as {} exact pieces\n", c.nurbs.refitted,
+               c.curves - c.nurbs.refitted, c.nurbs.blocks - c.nurbs.refitted);
+  }
+  fmt::print(
+      "\n  largest deviation from the programmed path, read back{}: {:.3f} um of {:g} um, "
+      "line {}\n",
+      convert::is_readable(dialect.name()) ? "" : " as G6.2", units::um_from_mm(deviation.largest),
+      units::um_from_mm(deviation.tolerance), deviation.line);
+}
+
+}  // namespace
+
+Expected<void> convert_command(const Options& options) {
+  auto machine = read_machine(options);
+  if (!machine) {
+    return tl::unexpected(machine.error());
+  }
+  auto program = config::find_program(options.programs.front());
+  if (!program) {
+    return tl::unexpected(program.error());
+  }
+  Job job{*program, {}, *machine};
+  job.reading.feedrate = feedrate_of(options);
+  const auto dialect = convert::make_dialect(options.dialect);
+  auto conversion = convert_to(job, *dialect);
+  if (!conversion) {
+    return tl::unexpected(conversion.error());
+  }
+  auto deviation = check_as_readable(job, options.dialect, *conversion);
+  if (!deviation) {
+    return tl::unexpected(deviation.error());
+  }
+  const fs::path file = output_of(options, *program, *dialect);
+  if (auto written = write(file, conversion->text); !written) {
+    return written;
+  }
+  if (!options.quiet) {
+    print(job, *dialect, *conversion, *deviation);
+    fmt::print("written to {}\n", file.string());
+  }
+  return {};
+}
+
+}  // namespace twin::cli

@@ -1,0 +1,132 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/identify_options.hpp"
+#include "cli/progress.hpp"
+#include "config/nearest_name.hpp"
+#include "core/atomic_file.hpp"
+#include "identify/identify.hpp"
+#include "identify/parameter.hpp"
+#include "identify/report.hpp"
+
+namespace twin::cli {
+namespace {
+
+/// Full keys from "a,b" texts; each must be one that can be fitted.
+Expected<std::vector<std::string>> keys_of(const std::vector<std::string>& names,
+                                           const config::MachineFile& machine) {
+  std::vector<identify::Parameter> known;
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    for (const identify::Candidate& candidate : identify::axis_candidates(machine, axis)) {
+      known.push_back(candidate.parameter);
+    }
+    const std::string name = axis == hal::kX ? "x" : "y";
+    for (const char* key : {"kd", "trim_V"}) {
+      known.push_back({"servo." + name + "." + key, 0.0, 1.0});
+    }
+    known.push_back({"table." + name + ".encoder_um_per_count", 0.0, 1.0});
+  }
+  std::vector<std::string> keys;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find_if(known, [&](const identify::Parameter& parameter) {
+      return parameter.key == name || parameter.key.starts_with(name + "_");
+    });
+    if (found == known.end()) {
+      std::vector<std::string> candidates;
+      for (const identify::Parameter& parameter : known) {
+        candidates.push_back(parameter.key);
+      }
+      return fail(ErrorCode::kUsage,
+                  fmt::format("--fix, --free: {} is nothing that a trace is fitted for{}", name,
+                              config::did_you_mean(name, candidates)));
+    }
+    keys.push_back(found->key);
+  }
+  return keys;
+}
+
+Expected<std::vector<identify::Recording>> read_all(const IdentifyOptions& options,
+                                                    const config::MachineFile& machine) {
+  const auto columns = identify::parse_columns(options.columns);
+  if (!columns) {
+    return tl::unexpected(columns.error());
+  }
+  std::vector<identify::Recording> recordings;
+  for (const std::string& trace : options.traces) {
+    auto recording = identify::read_recording(trace, *columns, machine.limits);
+    if (!recording) {
+      return tl::unexpected(recording.error());
+    }
+    recordings.push_back(std::move(*recording));
+  }
+  return recordings;
+}
+
+/// Writes the machine file and identify.json beside it.
+Expected<void> write_results(const identify::Identification& result,
+                             const std::filesystem::path& out) {
+  std::error_code code;
+  if (out.has_parent_path()) {
+    std::filesystem::create_directories(out.parent_path(), code);
+  }
+  if (code) {
+    return tl::unexpected(Error{ErrorCode::kFile, "cannot make this folder: " + code.message(),
+                                out.parent_path().string(), 0, 0});
+  }
+  if (auto written = write_whole_file(out, identify::to_machine_file(result)); !written) {
+    return written;
+  }
+  return write_whole_file(out.parent_path() / "identify.json", identify::to_json(result, out));
+}
+
+}  // namespace
+
+Expected<void> identify_command(const Options& options, const IdentifyOptions& identify_options,
+                                const std::atomic<bool>& stop) {
+  auto machine = read_machine(options);
+  if (!machine) {
+    return tl::unexpected(machine.error());
+  }
+  identify::FitOptions fit;
+  fit.evaluations = identify_options.evaluations;
+  fit.seed = identify_options.seed;
+  fit.stop = &stop;
+  auto fixed = keys_of(identify_options.fixed, *machine);
+  auto freed = keys_of(identify_options.freed, *machine);
+  if (!fixed || !freed) {
+    return tl::unexpected(fixed ? freed.error() : fixed.error());
+  }
+  fit.fixed = std::move(*fixed);
+  fit.freed = std::move(*freed);
+  const auto recordings = read_all(identify_options, *machine);
+  if (!recordings) {
+    return tl::unexpected(recordings.error());
+  }
+  Expected<identify::Identification> result;
+  {
+    Progress progress("identifying", options.quiet);
+    fit.progress = progress.callback();
+    result = identify::identify(*recordings, *machine, fit);
+  }
+  if (!result) {
+    return tl::unexpected(result.error());
+  }
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("renders/identify/identified.toml") : options.out;
+  if (auto written = write_results(*result, out); !written) {
+    return written;
+  }
+  if (!options.quiet) {
+    fmt::print("{}\nmachine file {}, details in {}\n", identify::to_table(*result), out.string(),
+               (out.parent_path() / "identify.json").string());
+  }
+  for (const std::string& note : result->notes) {
+    fmt::print(stderr, "twin: note: {}\n", note);
+  }
+  return {};
+}
+
+}  // namespace twin::cli

@@ -1,0 +1,76 @@
+#include "identify/axis_problem.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace twin::identify {
+namespace {
+
+constexpr double kUnstable = 1e3;  // residual of a motion that ran away [mm]
+
+double mm_per_s_per_volt(const hal::AxisParams& axis) {
+  return axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead;
+}
+
+/// Drops what is slower than a time constant, and the first value.
+void filter(Eigen::Ref<Eigen::VectorXd> values, double period) {
+  const double keep = std::exp(-period / AxisProblem::kForgetting);
+  double last = values.size() > 0 ? values[0] : 0.0;
+  double filtered = 0.0;
+  for (double& value : values) {
+    filtered = keep * (filtered + value - last);
+    last = value;
+    value = filtered;
+  }
+}
+
+}  // namespace
+
+AxisProblem::AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<AxisRecord> records)
+    : base_(std::move(base)),
+      axis_(axis),
+      records_(std::move(records)),
+      hum_phase_(records_.size(), 0.0) {
+  for (const AxisRecord& record : records_) {
+    rows_ += static_cast<Eigen::Index>(record.measured.size());
+  }
+}
+
+Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine,
+                                        std::size_t record) const {
+  const AxisRecord& data = records_[record];
+  AxisSetup setup = axis_setup(machine, axis_);
+  setup.axis.travel = kFarTravel;
+  setup.axis.drive.hum_phase += hum_phase_[record];
+  AxisModel model(setup, data.command.front().position);
+  model.settle(data.command.front().position);
+  servo::AxisServo servo(setup.servo, mm_per_s_per_volt(setup.axis), setup.period);
+  Eigen::VectorXd result(static_cast<Eigen::Index>(data.measured.size()));
+  for (std::size_t k = 0; k < data.measured.size(); ++k) {
+    const double volts =
+        data.has_volts() ? data.volts[k] : servo.update(data.command[k], data.measured[k]);
+    result[static_cast<Eigen::Index>(k)] = data.measured[k] - model.drive(volts).table;
+  }
+  if (model.has_failed()) {
+    result.setConstant(kUnstable);
+  }
+  return result;
+}
+
+Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,
+                                       std::span<const double> units) const {
+  const config::MachineFile machine = set.with_units(base_, units);
+  Eigen::VectorXd all(rows_);
+  Eigen::Index begin = 0;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const Eigen::VectorXd one = difference(machine, i);
+    all.segment(begin, one.size()) = one;
+    if (std::abs(one[0]) < kUnstable) {
+      filter(all.segment(begin, one.size()), machine.period);
+    }
+    begin += one.size();
+  }
+  return all;
+}
+
+}  // namespace twin::identify

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "config/machine_file.hpp"
+#include "core/error.hpp"
+#include "reproduce/published.hpp"
+
+namespace twin::reproduce {
+
+/// How to fit a machine to the published tables.
+struct TableFitOptions {
+  std::size_t evaluations = 1500;  ///< of the cost, each of which runs every row `repeats` times
+  int repeats = 2;                 ///< runs of a row with different phases, whose mean counts
+  double spread = 0.12;            ///< first standard deviation of the search, of each range
+  std::uint32_t seed = 1;
+  const std::atomic<bool>* stop = nullptr;       ///< set to end early with the best so far
+  std::function<void(double, double)> progress;  ///< gets the done share and the least cost
+};
+
+/// One parameter after the fit, in its key's unit.
+struct FittedValue {
+  std::string key;
+  double before = 0.0;
+  double after = 0.0;
+  double rise = 0.0;  ///< of the cost when the parameter is moved by a tenth of its range, the
+                      ///< lesser of both ways
+  bool is_at_bound = false;  ///< of the range that was searched
+};
+
+/// What a fit to the tables found.
+struct TableFit {
+  config::MachineFile machine;
+  double cost_before = 0.0;
+  double cost_after = 0.0;
+  double time_error = 0.0;  ///< RMS of machining time / published - 1 [-]
+  std::vector<FittedValue> values;
+  bool was_stopped = false;
+};
+
+/// Cost of a figure that should be `published`: with e = ln(ours / published)
+///   e^2 / (2 (e^2 + 0.15^2)) + e^2 / (2 (e^2 + 0.28^2)) + e^2 / 20,
+/// so that a figure that cannot be reached costs about 1 and does not pull the others along.
+double figure_cost(double ours, double published);
+
+/// One set of parameters of the table and of the servo for all measured rows of the published
+/// tables.
+///
+/// First the planning model: Kp / (1 - Kf) stays as it is (Eq. 1 with Table 2 gives it), and Kf is
+/// chosen so that the machining times fit best. Then the table: the rows, each with its own
+/// variants of the method, are run on identify::TableRun, and CMA-ES looks for the least sum of
+/// figure_cost over the errors of all rows, mean of `repeats` runs with the phases of
+/// with_phases_of_repeat.
+///
+/// Masses and lead are held: the tables do not identify them, nor much else (see TableFit::values).
+Expected<TableFit> fit_tables(const Published& published, const config::MachineFile& start,
+                              const TableFitOptions& options);
+
+}  // namespace twin::reproduce

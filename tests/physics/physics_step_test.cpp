@@ -1,0 +1,35 @@
+#include "tests/closed_loop/loop_fixture.hpp"
+
+// Whole programs on the table: what they report must not hang on how finely time is cut.
+namespace twin {
+namespace {
+
+class PhysicsStep : public test::LoopTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  metrics::MachineFigures run_with(double share_of_step) const {
+    config::MachineFile file = machine();
+    file.table.physics_step *= share_of_step;
+    hal::MujocoMachine table(file.table);
+    return execute(program(GetParam()), file, &table, std::nullopt)
+        .run.value_or(metrics::MachineFigures());
+  }
+};
+
+TEST_P(PhysicsStep, HalvedChangesNoRmsByOnePercent) {
+  const metrics::MachineFigures coarse = run_with(1.0);
+  const metrics::MachineFigures fine = run_with(0.5);
+  ASSERT_GT(fine.contour_error.rms, 0.0);
+  EXPECT_NEAR(coarse.contour_error.rms / fine.contour_error.rms, 1.0, 0.01);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(coarse.tracking_error[axis].rms / fine.tracking_error[axis].rms, 1.0, 0.01);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, PhysicsStep, ::testing::Values("dolphin.nc", "oxalis.nc"),
+                         [](const auto& tested) {
+                           const std::string name = tested.param;
+                           return name.substr(0, name.find('.'));
+                         });
+
+}  // namespace
+}  // namespace twin
