@@ -17,20 +17,23 @@ using report::Album;
 using report::Panel;
 
 constexpr std::size_t kPieces = 250;  // of an envelope
-constexpr const char* kKey =
-    "  set key at graph 1, graph 1 right bottom horizontal samplen 1.2 width 1 height 0.3\n";
-
 /// Adds a curve to what a panel draws.
 void draw_curve(Panel& panel, const std::string& data, const std::string& x, const std::string& y,
-                int style, const std::string& title) {
-  panel.plot += fmt::format("{}'{}.csv' using '{}':'{}' with lines linestyle {} title '{}'",
-                            panel.plot.empty() ? "" : ", \\\n    ", data, x, y, style, title);
+                int style) {
+  panel.plot += fmt::format("{}'{}.csv' using '{}':'{}' with lines linestyle {} linewidth 1",
+                            panel.plot.empty() ? "" : ", \\\n    ", data, x, y, style);
 }
 
 /// Feedrates and contour errors over time.
 Expected<std::vector<Panel>> curves_over_time(const Album& album, const Comparison& comparison) {
   Panel feedrate{"(a) feedrate", "time [s]", "feedrate [mm/s]", "", "", 270};
-  Panel error{"(b) largest contour error", "time [s]", "contour error [µm]", "", "", 270};
+  Panel error{"(b) contour error, largest of each 1/250 of the time",
+              "time [s]",
+              "contour error [µm]",
+              "",
+              "",
+              270};
+  double longest = 0.0;
   double fastest = 0.0;
   double largest = 0.0;
   int style = 1;
@@ -53,15 +56,16 @@ Expected<std::vector<Panel>> curves_over_time(const Album& album, const Comparis
         !written) {
       return tl::unexpected(written.error());
     }
+    longest = std::max(longest, report::range_of(*copied, 0).high);
     fastest = std::max(fastest, report::range_of(*copied, 1).high);
     largest = std::max(largest, report::range_of(peaks, 1).high);
-    draw_curve(feedrate, name, "t_s", "feedrate_mm_per_s", style, contestant.interpolator);
-    draw_curve(error, error_name, "t_s", "largest_contour_error_um", style,
-               contestant.interpolator);
+    draw_curve(feedrate, name, "t_s", "feedrate_mm_per_s", style);
+    draw_curve(error, error_name, "t_s", "largest_contour_error_um", style);
     ++style;
   }
-  feedrate.settings = kKey + report::feedrate_axis(fastest, false);
-  error.settings = kKey + report::y_axis({0.0, largest});
+  const std::string whole = fmt::format("  set xrange [0:{:.3f}]\n", longest);
+  feedrate.settings = whole + report::feedrate_axis(fastest, false);
+  error.settings = whole + report::y_axis({0.0, largest});
   return std::vector<Panel>{feedrate, error};
 }
 
@@ -137,15 +141,15 @@ Expected<std::vector<Panel>> fluctuation_panels(const Album& album, const Compar
   for (std::size_t i = 0; i < comparison.fluctuations.size(); ++i) {
     const Fluctuation& f = comparison.fluctuations[i];
     const std::string caption =
-        fmt::format("({}) {}, feedrate rule {}", static_cast<char>('a' + panels.size()), f.program,
-                    f.feedrate_rule);
+        fmt::format("({}) {}, {}", static_cast<char>('a' + panels.size()), f.program,
+                    f.feedrate_rule == "constant" ? "constant feedrate" : "default feedrate rule");
     const std::string group = f.program + "|" + f.feedrate_rule;
     if (group != shown) {
       shown = group;
       style = 0;
       panels.push_back({caption, "time [s]", "fluctuation [%]",
-                        "  set logscale y\n  set yrange [1e-7:1e3]\n  set ytics 100\n"
-                        "  set format y '10^{%T}'\n",
+                        "  set logscale y\n  set yrange [1e-6:1e3]\n  set ytics 100\n"
+                        "  unset mytics\n  set format y '10^{%T}'\n",
                         "", 300});
     }
     const auto shares = read_fluctuation(f.folder / trace::kTraceName, comparison.period);
@@ -159,18 +163,9 @@ Expected<std::vector<Panel>> fluctuation_panels(const Album& album, const Compar
         !written) {
       return tl::unexpected(written.error());
     }
-    draw_curve(panels.back(), data, "t_s", "largest_fluctuation_percent", ++style,
-               f.parameter_update);
+    draw_curve(panels.back(), data, "t_s", "largest_fluctuation_percent", ++style);
   }
   return panels;
-}
-
-/// The updates are named above the first panel, in a line of its own.
-void name_updates(std::vector<Panel>& panels) {
-  for (Panel& panel : panels) {
-    panel.settings +=
-        "  set key at graph 1, graph 0.99 right top horizontal samplen 1.2 maxrows 1\n";
-  }
 }
 
 }  // namespace
@@ -190,10 +185,15 @@ Expected<std::vector<report::Picture>> draw_figures(const Comparison& comparison
     }
   }
   panels->insert(panels->end(), more->begin(), more->end());
-  name_updates(*updates);
-  auto added = album->add("compare", comparison.program + ", interpolators compared", *panels);
+  std::vector<std::string> names;
+  for (const Contestant& contestant : comparison.contestants) {
+    names.push_back(contestant.interpolator);
+  }
+  auto added =
+      album->add("compare", comparison.program + ", interpolators compared", *panels, names);
   if (added && !updates->empty()) {
-    added = album->add("fluctuation", "Feedrate fluctuation by parameter update", *updates);
+    added = album->add("fluctuation", "Feedrate fluctuation under each parameter update", *updates,
+                       {kUpdates.begin(), kUpdates.end()});
   }
   if (!added) {
     return tl::unexpected(std::move(added.error()));

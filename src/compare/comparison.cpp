@@ -14,8 +14,6 @@
 namespace twin::compare {
 namespace {
 
-constexpr std::array<const char*, 4> kUpdates{"taylor1", "taylor2", "rk4", "corrected"};
-
 Expected<batch::Job> job_of(const Request& request, const std::filesystem::path& program,
                             const std::string& name, const std::vector<std::string>& settings) {
   std::vector<std::string> all = request.settings;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ struct Contestant {
   std::filesystem::path folder;  ///< with its trace.csv
   double planning_time = 0.0;    ///< of planning alone, read to planned segment, wall clock [s]
 };
+
+/// The parameter updates, as the machine file calls them.
+inline constexpr std::array<const char*, 4> kUpdates{"taylor1", "taylor2", "rk4", "corrected"};
 
 /// Feedrate fluctuation of the set points under one parameter update.
 struct Fluctuation {

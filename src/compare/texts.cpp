@@ -45,7 +45,7 @@ report::Grid grid_of_fluctuations(const Comparison& comparison) {
   grid.title = "Feedrate fluctuation under each parameter update, in % of the commanded feedrate";
   std::string shown;
   for (const Fluctuation& f : comparison.fluctuations) {
-    const std::string name = fmt::format("{}, feedrate rule {}", f.program, f.feedrate_rule);
+    const std::string name = fmt::format("{}, feedrate rule: {}", f.program, f.feedrate_rule);
     if (name != shown) {
       shown = name;
       grid.lines.push_back({name, "max", {}, {}});

@@ -53,10 +53,11 @@ Expected<void> Album::write_data(const std::string& name, std::span<const std::s
 }
 
 Expected<void> Album::add(const std::string& name, const std::string& title,
-                          const std::vector<Panel>& panels) {
+                          const std::vector<Panel>& panels,
+                          const std::vector<std::string>& legend) {
   scripts_.push_back(name + ".gp");
   pictures_.push_back({name, title});
-  return write_whole_file(folder_ / scripts_.back(), figure_script(name, title, panels));
+  return write_whole_file(folder_ / scripts_.back(), figure_script(name, title, panels, legend));
 }
 
 Expected<std::vector<Picture>> Album::draw() {

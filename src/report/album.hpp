@@ -35,7 +35,7 @@ class Album {
 
   /// Adds a figure whose panels read the data of this folder.
   Expected<void> add(const std::string& name, const std::string& title,
-                     const std::vector<Panel>& panels);
+                     const std::vector<Panel>& panels, const std::vector<std::string>& legend = {});
 
   /// Draws what was added.
   /// @returns the pictures by name
