@@ -25,9 +25,9 @@ constexpr double kSearchEnd = 0.75;
 
 }  // namespace
 
-AxisFitter::AxisFitter(AxisProblem&& problem, const FitOptions& options)
+AxisFitter::AxisFitter(AxisProblem&& problem, FitOptions options)
     : problem_(std::move(problem)),
-      options_(options),
+      options_(std::move(options)),
       start_(problem_.base()),
       current_(problem_.base()) {
   for (Candidate& candidate : axis_candidates(start_, problem_.axis())) {
@@ -97,6 +97,7 @@ std::vector<std::size_t> AxisFitter::free_places() const {
 
 ParameterSet AxisFitter::set_of(const std::vector<std::size_t>& places) const {
   std::vector<Parameter> parameters;
+  parameters.reserve(places.size());
   for (const std::size_t place : places) {
     parameters.push_back(candidates_[place].parameter);
   }
