@@ -14,7 +14,8 @@ ProgramFile square_program();
 /// G61 and G91.
 ProgramFile mixed_program();
 
-/// identify.nc: strokes and circles that show friction, drive and mass of both axes in a short time.
+/// identify.nc: strokes and circles that show friction, drive and mass of both axes in a short
+/// time.
 ProgramFile identify_program();
 
 }  // namespace twin::programs

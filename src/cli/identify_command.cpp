@@ -38,6 +38,7 @@ Expected<std::vector<std::string>> keys_of(const std::vector<std::string>& names
     });
     if (found == known.end()) {
       std::vector<std::string> candidates;
+      candidates.reserve(known.size());
       for (const identify::Parameter& parameter : known) {
         candidates.push_back(parameter.key);
       }

@@ -18,15 +18,16 @@ constexpr double kGoodFit = 1.1;  // of what rounding makes: nothing is left to 
 constexpr int kCoarseRank = 8;    // hold_rank from which on a parameter is fitted first
 constexpr double kPopulationPerFree = 1.5;
 constexpr int kMostRounds = 8;         // of holding what is not shown and fitting the rest again
+constexpr int kAlignments = 3;         // of hum phases and all else, one after the other
 constexpr double kBlock = 0.25;        // within which residuals may be correlated [s]
 constexpr double kSearchStart = 0.15;  // shares of the progress bar
 constexpr double kSearchEnd = 0.75;
 
 }  // namespace
 
-AxisFitter::AxisFitter(AxisProblem&& problem, const FitOptions& options)
+AxisFitter::AxisFitter(AxisProblem&& problem, FitOptions options)
     : problem_(std::move(problem)),
-      options_(options),
+      options_(std::move(options)),
       start_(problem_.base()),
       current_(problem_.base()) {
   for (Candidate& candidate : axis_candidates(start_, problem_.axis())) {
@@ -96,6 +97,7 @@ std::vector<std::size_t> AxisFitter::free_places() const {
 
 ParameterSet AxisFitter::set_of(const std::vector<std::size_t>& places) const {
   std::vector<Parameter> parameters;
+  parameters.reserve(places.size());
   for (const std::size_t place : places) {
     parameters.push_back(candidates_[place].parameter);
   }
@@ -225,16 +227,18 @@ double AxisFitter::rms_of(const config::MachineFile& machine) {
 }
 
 AxisFit AxisFitter::run() {
+  problem_.use(1);  // further records join a fit that is near already
   estimate_directly();
   report(0.05);
   const config::MachineFile begin = current_;
   polish(10, kCoarseRank);
-  align();
   polish(has_volts() ? 20 : 60);
-  align();
   search_further(begin);
-  align();
-  polish(20);
+  problem_.use(problem_.total());
+  for (int i = 0; i < kAlignments && problem_.total() > 1; ++i) {
+    align();
+    polish(15);
+  }
   judge_and_hold();
   estimate_gains();
   fit_.residual_rms = rms_of(current_);

@@ -13,7 +13,7 @@ namespace twin::identify {
 /// The fit of one axis on its way.
 class AxisFitter {
  public:
-  AxisFitter(AxisProblem&& problem, const FitOptions& options);
+  AxisFitter(AxisProblem&& problem, FitOptions options);
   AxisFit run();
 
  private:

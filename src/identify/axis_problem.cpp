@@ -1,5 +1,6 @@
 #include "identify/axis_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -33,7 +34,13 @@ AxisProblem::AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<A
       axis_(axis),
       records_(std::move(records)),
       hum_phase_(records_.size(), 0.0) {
-  for (const AxisRecord& record : records_) {
+  use(records_.size());
+}
+
+void AxisProblem::use(std::size_t count) noexcept {
+  used_ = std::min(count, records_.size());
+  rows_ = 0;
+  for (const AxisRecord& record : records()) {
     rows_ += static_cast<Eigen::Index>(record.measured.size());
   }
 }
@@ -73,7 +80,7 @@ Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,
   const config::MachineFile machine = set.with_units(base_, units);
   Eigen::VectorXd all(rows_);
   Eigen::Index begin = 0;
-  for (std::size_t i = 0; i < records_.size(); ++i) {
+  for (std::size_t i = 0; i < used_; ++i) {
     const Eigen::VectorXd one = difference(machine, i);
     all.segment(begin, one.size()) = one;
     if (std::abs(one[0]) < kUnstable) {

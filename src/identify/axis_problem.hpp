@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "config/machine_file.hpp"
@@ -53,7 +54,11 @@ class AxisProblem {
 
   const config::MachineFile& base() const noexcept { return base_; }
   void set_base(const config::MachineFile& base) { base_ = base; }
-  const std::vector<AxisRecord>& records() const noexcept { return records_; }
+  /// The records in use.
+  std::span<const AxisRecord> records() const noexcept { return {records_.data(), used_}; }
+  /// Uses the first records only; all at the beginning.
+  void use(std::size_t count) noexcept;
+  std::size_t total() const noexcept { return records_.size(); }
   hal::Axis axis() const noexcept { return axis_; }
   Eigen::Index rows() const noexcept { return rows_; }
   /// Phase of the hum of each record against the first [rad].
@@ -68,7 +73,8 @@ class AxisProblem {
   hal::Axis axis_;
   std::vector<AxisRecord> records_;
   std::vector<double> hum_phase_;
-  Eigen::Index rows_ = 0;
+  std::size_t used_ = 0;
+  Eigen::Index rows_ = 0;  // of the records in use
 };
 
 }  // namespace twin::identify
