@@ -28,8 +28,6 @@ Expected<void> check_one(const std::string& name, const config::MachineFile& mac
   return {};
 }
 
-}  // namespace
-
 /// Checks all the programs, so that one call shows what is wrong with each.
 Expected<void> check_command(const Options& options) {
   auto machine = read_machine(options);
@@ -46,6 +44,21 @@ Expected<void> check_command(const Options& options) {
     }
   }
   return result;
+}
+
+}  // namespace
+
+Command add_check(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app =
+      context.app.add_subcommand("check", "Read and verify programs; nothing moves");
+  app->add_option("programs", options.programs, "NC programs: files, or names in nc_programs")
+      ->required()
+      ->type_name("PROGRAM.nc ...");
+  add_feedrate_option(*app, options);
+  add_machine_options(*app, options);
+  app->add_flag("--quiet", options.quiet, "Print errors only");
+  return {app, [&options] { return check_command(options); }};
 }
 
 }  // namespace twin::cli

@@ -134,8 +134,6 @@ Expected<void> write_picture(const CircleTest& test, const BothRuns& runs, const
   return {};
 }
 
-}  // namespace
-
 Expected<void> circle_command(const Options& options, const std::atomic<bool>& stop) {
   const auto test = make_circle_test(options);
   if (!test) {
@@ -169,6 +167,23 @@ Expected<void> circle_command(const Options& options, const std::atomic<bool>& s
     fmt::print("results in {}\n", test->folder.string());
   }
   return {};
+}
+
+}  // namespace
+
+Command add_circle(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "circle", "Circular test after ISO 230-4: both senses, deviations, reversal spikes");
+  app->add_option("--radius-mm", options.radius_mm, "Radius of the circle about X0 Y0")
+      ->type_name("R")
+      ->capture_default_str();
+  add_feedrate_option(*app, options, "Feedrate [3000]");
+  add_machine_options(*app, options);
+  add_interpolator_option(*app, options);
+  add_hal_option(*app, options);
+  add_result_options(*app, options, "circle");
+  return {app, [&options, &stop = context.stop] { return circle_command(options, stop); }};
 }
 
 }  // namespace twin::cli

@@ -1,23 +1,36 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <atomic>
+#include <functional>
 
-#include "cli/identify_options.hpp"
 #include "cli/options.hpp"
 #include "core/error.hpp"
 
-/// The subcommands, one file each. They return what keeps the exit status from being 0.
+/// The subcommands, one file each.
 namespace twin::cli {
 
-Expected<void> run_command(const Options& options, const std::atomic<bool>& stop);
-Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop);
-Expected<void> circle_command(const Options& options, const std::atomic<bool>& stop);
-Expected<void> check_command(const Options& options);
-Expected<void> convert_command(const Options& options);
-Expected<void> render_command(const Options& options);
-Expected<void> compare_command(const Options& options, const std::atomic<bool>& stop);
-Expected<void> reproduce_command(const Options& options, const std::atomic<bool>& stop);
-Expected<void> identify_command(const Options& options, const IdentifyOptions& identify_options,
-                                const std::atomic<bool>& stop);
+/// A subcommand: its options, and what it does once they are parsed.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<Expected<void>()> execute;  ///< returns what keeps the exit status from being 0
+};
+
+/// What all subcommands are made with. `options` and `stop` outlive them.
+struct CommandContext {
+  CLI::App& app;
+  Options& options;
+  const std::atomic<bool>& stop;  ///< set when the user wants to end
+};
+
+Command add_run(const CommandContext& context);
+Command add_plan(const CommandContext& context);
+Command add_check(const CommandContext& context);
+Command add_render(const CommandContext& context);
+Command add_compare(const CommandContext& context);
+Command add_reproduce(const CommandContext& context);
+Command add_circle(const CommandContext& context);
+Command add_identify(const CommandContext& context);
+Command add_convert(const CommandContext& context);
 
 }  // namespace twin::cli

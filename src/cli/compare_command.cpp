@@ -34,8 +34,6 @@ Expected<compare::Request> request_of(const Options& options) {
   return request;
 }
 
-}  // namespace
-
 Expected<void> compare_command(const Options& options, const std::atomic<bool>& stop) {
   auto request = request_of(options);
   if (!request) {
@@ -75,6 +73,19 @@ Expected<void> compare_command(const Options& options, const std::atomic<bool>& 
     fmt::print("results in {}\n", out.string());
   }
   return {};
+}
+
+}  // namespace
+
+Command add_compare(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "compare", "The interpolators side by side on one program; the parameter updates too");
+  add_program_options(*app, options);
+  add_machine_options(*app, options);
+  add_hal_option(*app, options);
+  add_result_options(*app, options, "PROGRAM_compare");
+  return {app, [&options, &stop = context.stop] { return compare_command(options, stop); }};
 }
 
 }  // namespace twin::cli

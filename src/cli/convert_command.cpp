@@ -1,16 +1,29 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <system_error>
 
 #include "cli/commands.hpp"
 #include "config/find_file.hpp"
+#include "config/nearest_name.hpp"
 #include "convert/comparison.hpp"
 #include "convert/converter.hpp"
+#include "convert/dialect.hpp"
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
 
 namespace twin::cli {
 namespace {
+
+/// Empty for the name of a dialect, else what is wrong with it.
+std::string check_dialect(const std::string& name) {
+  if (convert::make_dialect(name) != nullptr) {
+    return {};
+  }
+  const std::vector<std::string> names = convert::dialect_names();
+  return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
 
 namespace fs = std::filesystem;
 
@@ -114,8 +127,6 @@ void print(const Job& job, const convert::Dialect& dialect, const convert::Conve
       units::um_from_mm(deviation.tolerance), deviation.line);
 }
 
-}  // namespace
-
 Expected<void> convert_command(const Options& options) {
   auto machine = read_machine(options);
   if (!machine) {
@@ -145,6 +156,26 @@ Expected<void> convert_command(const Options& options) {
     fmt::print("written to {}\n", file.string());
   }
   return {};
+}
+
+}  // namespace
+
+Command add_convert(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "convert", "Write a program as NURBS blocks of a control; runs of short blocks are fitted");
+  add_program_options(*app, options);
+  app->add_option("--to", options.dialect,
+                  "g5.2: LinuxCNC; g6.2: LinuxCNC 2.10; fanuc: G06.2; bspline: SINUMERIK")
+      ->required()
+      ->check(check_dialect)
+      ->type_name("DIALECT");
+  add_machine_options(*app, options);
+  add_interpolator_option(*app, options);
+  app->add_option("--out", options.out, "File to write [renders/PROGRAM/PROGRAM.DIALECT.nc]")
+      ->type_name("FILE");
+  app->add_flag("--quiet", options.quiet, "Print errors only");
+  return {app, [&options] { return convert_command(options); }};
 }
 
 }  // namespace twin::cli

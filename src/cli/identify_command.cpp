@@ -1,10 +1,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/identify_options.hpp"
+#include "cli/identify_tables.hpp"
 #include "cli/progress.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
@@ -82,26 +84,26 @@ Expected<void> write_results(const identify::Identification& result,
   return write_whole_file(out.parent_path() / "identify.json", identify::to_json(result, out));
 }
 
-}  // namespace
+/// Where the machine file goes.
+std::filesystem::path output_of(const Options& options) {
+  return options.out.empty() ? std::filesystem::path("renders/identify/identified.toml")
+                             : options.out;
+}
 
-Expected<void> identify_command(const Options& options, const IdentifyOptions& identify_options,
-                                const std::atomic<bool>& stop) {
-  auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
-  }
+Expected<void> identify_traces(const Options& options, const IdentifyOptions& identify_options,
+                               const config::MachineFile& machine, const std::atomic<bool>& stop) {
   identify::FitOptions fit;
-  fit.evaluations = identify_options.evaluations;
+  fit.evaluations = identify_options.evaluations.value_or(fit.evaluations);
   fit.seed = identify_options.seed;
   fit.stop = &stop;
-  auto fixed = keys_of(identify_options.fixed, *machine);
-  auto freed = keys_of(identify_options.freed, *machine);
+  auto fixed = keys_of(identify_options.fixed, machine);
+  auto freed = keys_of(identify_options.freed, machine);
   if (!fixed || !freed) {
     return tl::unexpected(fixed ? freed.error() : fixed.error());
   }
   fit.fixed = std::move(*fixed);
   fit.freed = std::move(*freed);
-  const auto recordings = read_all(identify_options, *machine);
+  const auto recordings = read_all(identify_options, machine);
   if (!recordings) {
     return tl::unexpected(recordings.error());
   }
@@ -109,13 +111,12 @@ Expected<void> identify_command(const Options& options, const IdentifyOptions& i
   {
     Progress progress("identifying", options.quiet);
     fit.progress = progress.callback();
-    result = identify::identify(*recordings, *machine, fit);
+    result = identify::identify(*recordings, machine, fit);
   }
   if (!result) {
     return tl::unexpected(result.error());
   }
-  const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("renders/identify/identified.toml") : options.out;
+  const std::filesystem::path out = output_of(options);
   if (auto written = write_results(*result, out); !written) {
     return written;
   }
@@ -127,6 +128,43 @@ Expected<void> identify_command(const Options& options, const IdentifyOptions& i
     fmt::print(stderr, "twin: note: {}\n", note);
   }
   return {};
+}
+
+Expected<void> identify_command(const Options& options, const IdentifyOptions& identify,
+                                const std::atomic<bool>& stop) {
+  if (identify.tables != identify.traces.empty()) {
+    return fail(ErrorCode::kUsage, identify.tables
+                                       ? "identify takes traces or --tables, not both"
+                                       : "identify wants traces, or --tables; see twin identify "
+                                         "--help");
+  }
+  const auto machine = read_machine(options);
+  if (!machine) {
+    return tl::unexpected(machine.error());
+  }
+  if (!identify.tables) {
+    return identify_traces(options, identify, *machine, stop);
+  }
+  IdentifyTables request;
+  request.start = *machine;
+  request.out = output_of(options);
+  request.evaluations = identify.evaluations.value_or(request.evaluations);
+  request.seed = identify.seed;
+  request.quiet = options.quiet;
+  return identify_tables(request, stop);
+}
+
+}  // namespace
+
+Command add_identify(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "identify", "Fit the machine's parameters to recorded traces, and say which are shown");
+  const auto identify = std::make_shared<IdentifyOptions>();
+  add_identify_options(*app, options, *identify);
+  return {app, [&options, identify, &stop = context.stop] {
+            return identify_command(options, *identify, stop);
+          }};
 }
 
 }  // namespace twin::cli

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,11 @@ struct IdentifyOptions {
   std::vector<std::string> fixed;   ///< keys that keep the machine file's value
   std::vector<std::string> freed;   ///< keys that are fitted though they would be held
   std::uint32_t seed = 1;
-  std::size_t evaluations = 1200;  ///< simulations of the global search, an axis
+  std::optional<std::size_t> evaluations;  ///< simulations of the global search
+  bool tables = false;                     ///< the published tables take the place of traces
 };
 
-/// Adds `identify` with its options.
-CLI::App* add_identify_command(CLI::App& app, Options& options, IdentifyOptions& identify);
+/// Adds the options of `identify`.
+void add_identify_options(CLI::App& command, Options& options, IdentifyOptions& identify);
 
 }  // namespace twin::cli

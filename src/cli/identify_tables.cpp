@@ -34,8 +34,8 @@ void print(const reproduce::TableFit& fit) {
   }
   fmt::print(
       "\nrise: of the cost when the parameter is moved by a tenth of its range\n"
-      "cost {:.3f} before, {:.3f} after: sum over 48 figures, each 0 where it is met and "
-      "about 1 where it is far off\n",
+      "cost {:.3f} before, {:.3f} after, over 48 figures: 0 where all are met, 2.8 for each that "
+      "is far off\n",
       fit.cost_before, fit.cost_after);
 }
 

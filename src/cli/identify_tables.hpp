@@ -13,7 +13,7 @@ namespace twin::cli {
 struct IdentifyTables {
   config::MachineFile start;
   std::filesystem::path out;  ///< machine file to write
-  std::size_t evaluations = 1500;
+  std::size_t evaluations = 1700;
   std::uint32_t seed = 1;
   bool quiet = false;
 };

@@ -1,27 +1,9 @@
 #include "cli/options.hpp"
 
-#include <fmt/format.h>
-
 #include "config/find_file.hpp"
-#include "config/nearest_name.hpp"
-#include "convert/dialect.hpp"
 #include "core/units.hpp"
 
 namespace twin::cli {
-
-namespace {
-
-/// Empty for the name of a dialect, else what is wrong with it.
-std::string check_dialect(const std::string& name) {
-  if (convert::make_dialect(name) != nullptr) {
-    return {};
-  }
-  const std::vector<std::string> names = convert::dialect_names();
-  return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
-                     fmt::join(names, ", "));
-}
-
-}  // namespace
 
 void add_program_options(CLI::App& command, Options& options) {
   command
@@ -30,19 +12,16 @@ void add_program_options(CLI::App& command, Options& options) {
       ->required()
       ->expected(1)
       ->type_name("PROGRAM.nc");
-  command
-      .add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min,
-                  "Feedrate in place of the program's F words")
+  add_feedrate_option(command, options);
+}
+
+void add_feedrate_option(CLI::App& command, Options& options, const std::string& text) {
+  command.add_option("--feedrate-mm-per-min", options.feedrate_mm_per_min, text)
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("F");
 }
 
-void add_planning_options(CLI::App& command, Options& options) {
-  add_program_options(command, options);
-  add_machine_options(command, options);
-}
-
-void add_machine_file_options(CLI::App& command, Options& options) {
+void add_machine_options(CLI::App& command, Options& options) {
   command
       .add_option("--machine", options.machine, "Machine file: a file, or the name of one in mjcf")
       ->type_name("FILE.toml")
@@ -56,27 +35,13 @@ void add_machine_file_options(CLI::App& command, Options& options) {
       ->expected(1);
 }
 
-void add_machine_options(CLI::App& command, Options& options) {
-  add_machine_file_options(command, options);
+void add_interpolator_option(CLI::App& command, Options& options) {
   command
       .add_option("--interpolator", options.interpolator,
                   "What runs of short blocks become: nurbs (C2 curves), bezier (Fast Bezier), "
                   "linear (nothing else) [of the machine file: nurbs]")
       ->check(CLI::IsMember({"nurbs", "bezier", "linear"}))
       ->type_name("NAME");
-}
-
-void add_convert_options(CLI::App& command, Options& options) {
-  add_planning_options(command, options);
-  command
-      .add_option("--to", options.dialect,
-                  "g5.2: LinuxCNC; g6.2: LinuxCNC 2.10; fanuc: G06.2; bspline: SINUMERIK")
-      ->required()
-      ->check(check_dialect)
-      ->type_name("DIALECT");
-  command.add_option("--out", options.out, "File to write [renders/PROGRAM/PROGRAM.DIALECT.nc]")
-      ->type_name("FILE");
-  command.add_flag("--quiet", options.quiet, "Print errors only");
 }
 
 void add_hal_option(CLI::App& command, Options& options) {
@@ -88,10 +53,10 @@ void add_hal_option(CLI::App& command, Options& options) {
       ->capture_default_str();
 }
 
-void add_result_options(CLI::App& command, Options& options) {
-  command.add_option("--out", options.out, "Folder of the results [renders/PROGRAM]")
+void add_result_options(CLI::App& command, Options& options, const std::string& folder) {
+  command.add_option("--out", options.out, "Folder of the results [renders/" + folder + "]")
       ->type_name("DIR");
-  command.add_flag("--no-plots", options.no_plots, "Write no figures");
+  command.add_flag("--no-plots", options.no_plots, "Draw no figures");
   command.add_flag("--quiet", options.quiet, "Print errors only");
 }
 

@@ -30,20 +30,19 @@ struct Options {
   bool quiet = false;
 };
 
-/// Program and feedrate.
+/// The NC program and --feedrate-mm-per-min.
 void add_program_options(CLI::App& command, Options& options);
-/// --machine, --set.
-void add_machine_file_options(CLI::App& command, Options& options);
-/// The same and --interpolator.
+/// --feedrate-mm-per-min alone.
+void add_feedrate_option(CLI::App& command, Options& options,
+                         const std::string& text = "Feedrate in place of the program's F words");
+/// --machine and --set.
 void add_machine_options(CLI::App& command, Options& options);
-/// Options that say what is planned: program, feedrate, machine file, settings, interpolator.
-void add_planning_options(CLI::App& command, Options& options);
+/// --interpolator.
+void add_interpolator_option(CLI::App& command, Options& options);
 /// --hal.
 void add_hal_option(CLI::App& command, Options& options);
-/// Options of convert: program, dialect, output file, machine file, settings, feedrate.
-void add_convert_options(CLI::App& command, Options& options);
-/// Options that say where results go and which.
-void add_result_options(CLI::App& command, Options& options);
+/// --out, --no-plots, --quiet. @param folder  below renders, where results go without --out
+void add_result_options(CLI::App& command, Options& options, const std::string& folder = "PROGRAM");
 /// --video and --camera.
 void add_video_options(CLI::App& command, Options& options);
 

@@ -29,8 +29,6 @@ Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
   return TraceOrigin{json["program"].get<std::string>(), json.contains("machining_time_s")};
 }
 
-}  // namespace
-
 Expected<void> render_command(const Options& options) {
   auto origin = read_origin(options.out);
   if (!origin) {
@@ -56,6 +54,24 @@ Expected<void> render_command(const Options& options) {
     return write_video(options.out, machine->table.model, origin->program, options);
   }
   return {};
+}
+
+}  // namespace
+
+Command add_render(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app =
+      context.app.add_subcommand("render", "Plots and video again, from the trace in a folder");
+  app->add_option("directory", options.out, "Folder of an earlier run")
+      ->required()
+      ->type_name("DIR");
+  app->add_option("--machine", options.machine, "Machine file whose model the video shows")
+      ->type_name("FILE.toml")
+      ->capture_default_str();
+  app->add_flag("--no-plots", options.no_plots, "Draw no figures");
+  app->add_flag("--quiet", options.quiet, "Print errors only");
+  add_video_options(*app, options);
+  return {app, [&options] { return render_command(options); }};
 }
 
 }  // namespace twin::cli

@@ -21,8 +21,6 @@ void print(const reproduce::Reproduction& reproduction) {
   fmt::print("{}\n{}\n\n", to_text(grid_of_counts(reproduction)), unreached(reproduction));
 }
 
-}  // namespace
-
 Expected<void> reproduce_command(const Options& options, const std::atomic<bool>& stop) {
   reproduce::Request request;
   auto published = reproduce::published();
@@ -65,6 +63,21 @@ Expected<void> reproduce_command(const Options& options, const std::atomic<bool>
     fmt::print("tables and figures: {}\n", (out / "index.html").string());
   }
   return {};
+}
+
+}  // namespace
+
+Command add_reproduce(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "reproduce", "Tables 1 to 5 and Figs. 12 to 19 of Wang and Yau's paper beside ours");
+  add_machine_options(*app, options);
+  app->add_option("--repeats", options.repeats, "Runs a row with other encoder and hum phases")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N")
+      ->capture_default_str();
+  add_result_options(*app, options, "reproduce");
+  return {app, [&options, &stop = context.stop] { return reproduce_command(options, stop); }};
 }
 
 }  // namespace twin::cli

@@ -73,12 +73,29 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
 
 }  // namespace
 
-Expected<void> run_command(const Options& options, const std::atomic<bool>& stop) {
-  return execute(options, stop, true);
+Command add_run(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "run", "Plan a program, move the machine along it, write the results, print the summary");
+  add_program_options(*app, options);
+  add_machine_options(*app, options);
+  add_interpolator_option(*app, options);
+  add_hal_option(*app, options);
+  app->add_flag("--realtime", options.realtime, "Keep to the wall clock");
+  add_result_options(*app, options);
+  add_video_options(*app, options);
+  return {app, [&options, &stop = context.stop] { return execute(options, stop, true); }};
 }
 
-Expected<void> plan_command(const Options& options, const std::atomic<bool>& stop) {
-  return execute(options, stop, false);
+Command add_plan(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app = context.app.add_subcommand(
+      "plan", "The same without a machine: set points, planned time, limits");
+  add_program_options(*app, options);
+  add_machine_options(*app, options);
+  add_interpolator_option(*app, options);
+  add_result_options(*app, options);
+  return {app, [&options, &stop = context.stop] { return execute(options, stop, false); }};
 }
 
 }  // namespace twin::cli

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPlaces = 8;       // to a block
 constexpr double kAround = 1.0;  // arc length searched on either side [mm]
-constexpr double kShare = 0.02;  // and that much of the whole
+constexpr double kShare = 1e-5;  // and that much of the whole
 
 /// Blocks one after the other, with arc length.
 class Chain {

@@ -44,8 +44,8 @@ class NurbsCollector {
  public:
   static constexpr std::size_t kMostPoints = 100000;  ///< control points of one curve
   static constexpr double kFarthest = 1e5;            ///< largest coordinate [mm]
-  static constexpr double kLeastWeight = 1e-6;        ///< of a control point
-  static constexpr double kMostWeight = 1e6;          ///< the same
+  static constexpr double kLeastWeight = 1e-4;        ///< of a control point
+  static constexpr double kMostWeight = 1e4;          ///< the same
 
   bool is_open() const noexcept { return is_open_; }
 

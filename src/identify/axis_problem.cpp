@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hal/mujoco/table_settings.hpp"
+
 namespace twin::identify {
 namespace {
 
@@ -36,12 +38,15 @@ AxisProblem::AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<A
   }
 }
 
-Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine,
-                                        std::size_t record) const {
+Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std::size_t record,
+                                        double hum_phase) const {
   const AxisRecord& data = records_[record];
   AxisSetup setup = axis_setup(machine, axis_);
   setup.axis.travel = kFarTravel;
-  setup.axis.drive.hum_phase += hum_phase_[record];
+  setup.axis.drive.hum_phase += hum_phase;
+  if (!data.has_volts()) {
+    setup.axis.dac_bits = hal::kMaxDacBits;  // steps of a converter would make the residual rough
+  }
   AxisModel model(setup, data.command.front().position);
   model.settle(data.command.front().position);
   servo::AxisServo servo(setup.servo, mm_per_s_per_volt(setup.axis), setup.period);
@@ -55,6 +60,12 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine,
     result.setConstant(kUnstable);
   }
   return result;
+}
+
+double AxisProblem::cost(std::size_t record, double hum_phase) const {
+  Eigen::VectorXd values = difference(base_, record, hum_phase);
+  filter(values, base_.period);
+  return values.squaredNorm();
 }
 
 Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,

@@ -44,7 +44,12 @@ class AxisProblem {
   Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const;
 
   /// y - x of one record, not filtered [mm].
-  Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record) const;
+  Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record) const {
+    return difference(machine, record, hum_phase_[record]);
+  }
+
+  /// Sum of squared residuals of one record, with another phase of its hum [mm^2].
+  double cost(std::size_t record, double hum_phase) const;
 
   const config::MachineFile& base() const noexcept { return base_; }
   void set_base(const config::MachineFile& base) { base_ = base; }
@@ -56,6 +61,9 @@ class AxisProblem {
   const std::vector<double>& hum_phase() const noexcept { return hum_phase_; }
 
  private:
+  Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record,
+                             double hum_phase) const;
+
   config::MachineFile base_;
   hal::Axis axis_;
   std::vector<AxisRecord> records_;

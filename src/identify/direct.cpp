@@ -1,8 +1,11 @@
 #include "identify/direct.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "identify/parallel_for.hpp"
 
 namespace twin::identify {
 namespace {
@@ -12,6 +15,8 @@ constexpr double kLowestHum = 15.0;         // [Hz]
 constexpr double kHighestHum = 420.0;       // [Hz]
 constexpr double kNyquistShare = 0.45;      // of the sampling rate that is looked at
 constexpr std::size_t kSearchRows = 16384;  // rows that the search for a tone looks at
+constexpr std::size_t kPhases = 12;         // that a search for a phase tries in a turn
+constexpr double kPhaseTolerance = 2e-3;    // [rad]
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 double mm_per_s_per_volt(const hal::AxisParams& axis) {
@@ -104,6 +109,25 @@ bool direct_hum(AxisProblem& problem, config::MachineFile& machine) {
     problem.hum_phase()[i] = i == 0 ? 0.0 : std::remainder(phase - drive.hum_phase, kTwoPi);
   }
   return true;
+}
+
+void align_hum(AxisProblem& problem) {
+  if (!(problem.base().table.axis[problem.axis()].drive.hum_amplitude > 0.0)) {
+    return;
+  }
+  for (std::size_t record = 1; record < problem.records().size(); ++record) {
+    double best = 0.0;
+    // A turn in steps, then finer and finer about the best.
+    for (double step = kTwoPi / kPhases; step > kPhaseTolerance; step /= kPhases / 2.0) {
+      std::array<double, kPhases + 1> costs{};
+      const auto phase = [&](std::size_t i) {
+        return best + step * (static_cast<double>(i) - kPhases / 2.0);
+      };
+      parallel_for(costs.size(), [&](std::size_t i) { costs[i] = problem.cost(record, phase(i)); });
+      best = phase(static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin()));
+    }
+    problem.hum_phase()[record] = std::remainder(best, kTwoPi);
+  }
 }
 
 }  // namespace twin::identify

@@ -20,4 +20,8 @@ double direct_offset(const AxisProblem& problem, const config::MachineFile& mach
 /// problem. @returns false where no tone stands out; the amplitude is then 0
 bool direct_hum(AxisProblem& problem, config::MachineFile& machine);
 
+/// Searches each further record's phase of the hum against the first, the machine being the
+/// problem's base.
+void align_hum(AxisProblem& problem);
+
 }  // namespace twin::identify

@@ -99,6 +99,23 @@ void add_doubt_of_held(const std::vector<JudgedCandidate>& candidates, const Mat
   }
 }
 
+/// Holds one more where the doubt of the held makes it unknown: the one of the lowest hold_rank.
+void hold_most_doubtful(const std::vector<JudgedCandidate>& candidates, Judgement& judgement) {
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool is_doubtful =
+        judgement[i].verdict == Verdict::kIdentified && judgement[i].relative > kMostRelative;
+    if (is_doubtful &&
+        (!worst || candidates[i].candidate->hold_rank < candidates[*worst].candidate->hold_rank)) {
+      worst = i;
+    }
+  }
+  if (worst) {
+    judgement[*worst].verdict = Verdict::kUnidentified;
+    judgement[*worst].why = "depends too much on others that are not identified";
+  }
+}
+
 /// Deviations of the kept. @returns which of them is to be held next, if any
 std::optional<std::size_t> deviations(const std::vector<JudgedCandidate>& candidates,
                                       const std::vector<Index>& kept, const MatrixXd& covariance,
@@ -160,6 +177,7 @@ Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals&
       judgement[place].why = "best at the end of its range";
     }
   }
+  hold_most_doubtful(candidates, judgement);
   return judgement;
 }
 

@@ -94,6 +94,11 @@ Minimum minimise(const std::function<double(std::span<const double>)>& objective
   std::vector<double> start = options.start;
   std::ranges::for_each(start, [](double& x) { x = std::clamp(x, 0.0, 1.0); });
   const double first = search.evaluate(start);
+  if (search.best.x.empty()) {  // stopped before anything began
+    search.best.x = start;
+    search.best.cost = kWorst;
+    return search.best;
+  }
   search.report();
 
   pagmo::population population(pagmo::problem(Cube{&search}), 0, options.seed);

@@ -13,6 +13,28 @@ constexpr double kWholeShare = 0.98;     // of the steps that must be whole mult
 constexpr std::size_t kFewestSteps = 20;
 constexpr double kMostMultiple = 50.0;  // larger steps say nothing of the quantum
 
+/// Refines a guess over all steps that are small multiples of it; nothing if few steps are.
+std::optional<double> refined(const std::vector<double>& sorted_steps, double guess) {
+  double quantum = guess;
+  std::size_t whole = 0;
+  std::size_t tried = 0;
+  for (const double step : sorted_steps) {
+    // The more steps agree, the larger multiples can be told from their neighbours.
+    const double multiple = step / quantum;
+    if (multiple > kMostMultiple) {
+      break;
+    }
+    ++tried;
+    const double nearest = std::round(multiple);
+    if (nearest >= 1.0 && std::abs(multiple - nearest) < kWholeTolerance) {
+      ++whole;
+      quantum += (step / nearest - quantum) / static_cast<double>(whole);
+    }
+  }
+  const bool is_whole = static_cast<double>(whole) >= kWholeShare * static_cast<double>(tried);
+  return tried >= kFewestSteps && is_whole ? std::optional(quantum) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> quantum_of(std::span<const double> values) {
@@ -27,27 +49,13 @@ std::optional<double> quantum_of(std::span<const double> values) {
     return std::nullopt;
   }
   std::ranges::sort(steps);
-  double quantum = steps[steps.size() / 200];
-  std::size_t whole = 0;
-  std::size_t tried = 0;
-  for (const double step : steps) {
-    // The more steps agree, the larger multiples can be told from their neighbours.
-    const double multiple = step / quantum;
-    if (multiple > kMostMultiple) {
-      break;
-    }
-    ++tried;
-    const double nearest = std::round(multiple);
-    if (nearest >= 1.0 && std::abs(multiple - nearest) < kWholeTolerance) {
-      ++whole;
-      quantum += (step / nearest - quantum) / static_cast<double>(whole);
+  // The very smallest may be a stray; a fast motion has few that are small.
+  for (const std::size_t place : {std::size_t{0}, steps.size() / 1000, steps.size() / 200}) {
+    if (const auto quantum = refined(steps, steps[place])) {
+      return quantum;
     }
   }
-  if (tried < kFewestSteps ||
-      static_cast<double>(whole) < kWholeShare * static_cast<double>(tried)) {
-    return std::nullopt;
-  }
-  return quantum;
+  return std::nullopt;
 }
 
 }  // namespace twin::identify

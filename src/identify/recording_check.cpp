@@ -86,7 +86,7 @@ struct AxisCheck {
     for (const double factor : {1000.0, -1000.0, 0.001, -0.001}) {
       if (std::abs(slope / factor - 1.0) < 0.3) {
         return refuse(
-            fmt::format("column {} moves {:g} times as far as column {}: their units "
+            fmt::format("column {} moves {:.4g} times as far as column {}: their units "
                         "differ; say which is in mm, um or m ({}:{})",
                         columns[1].name, slope, columns[0].name, columns[1].name,
                         std::abs(factor) > 1.0 ? "um" : "m"));

@@ -12,7 +12,9 @@ namespace {
 constexpr double kLengthTolerance = 1e-10;  // of one interval [mm]
 constexpr double kPlaceTolerance = 1e-10;   // of u_at [mm]
 constexpr int kMaxDepth = 40;               // halvings of one span
-constexpr int kMostHalvings = 2000;         // in one span: rounding may hide the convergence
+constexpr double kRounding = 1e-13;         // of the coordinates, seen in a length
+constexpr int kHalvings = 32;               // allowed per span, on average
+constexpr int kMoreHalvings = 2000;         // and beyond that
 constexpr int kMaxIterations = 60;
 constexpr double kRadius = 8.0;  // R of Eq. (1)
 
@@ -73,7 +75,8 @@ struct ArcLength::Builder {
   ArcLength& table;
   const Curve& curve;
   std::vector<CurvatureSample>* samples;
-  int halvings = 0;  // left for the span under way
+  double tolerance = kLengthTolerance;  // of a curve that is no cubic polynomial [mm]
+  int halvings = 0;                     // left to it
 
   /// Adds an interval whose speeds at the nodes are known; returns arc lengths at its quarters.
   std::array<double, 4> append(double begin, double half, const Quartic& q,
@@ -121,7 +124,7 @@ struct ArcLength::Builder {
     const double whole = half * gauss::weighted_sum(gauss::kWeights, speeds);
     const double halves = quarter * (gauss::weighted_sum(gauss::kWeights, left) +
                                      gauss::weighted_sum(gauss::kWeights, right));
-    if (std::abs(whole - halves) > kLengthTolerance && depth < kMaxDepth && halvings > 0) {
+    if (std::abs(whole - halves) > tolerance && depth < kMaxDepth && halvings > 0) {
       --halvings;
       add_any(span, begin, quarter, left, depth + 1);
       add_any(span, begin + half, quarter, right, depth + 1);
@@ -145,6 +148,10 @@ void ArcLength::build(const Curve& curve, std::vector<CurvatureSample>* samples)
   Builder builder{*this, curve, samples};
   const std::vector<double>& u = curve.knots();
   const int end = static_cast<int>(u.size()) - curve.degree() - 1;
+  for (const Vec3& point : curve.control_points()) {
+    builder.tolerance = std::max(builder.tolerance, kRounding * point.cwiseAbs().maxCoeff());
+  }
+  builder.halvings = kHalvings * end + kMoreHalvings;
   for (int span = curve.degree(); span < end; ++span) {
     const double half = 0.5 * (u[span + 1] - u[span]);
     if (!(half > 0.0)) {
@@ -153,7 +160,6 @@ void ArcLength::build(const Curve& curve, std::vector<CurvatureSample>* samples)
     if (is_cubic_) {
       builder.add_cubic(span_cubic(curve, span), u[span], half, 0);
     } else {
-      builder.halvings = kMostHalvings;
       builder.add_any(span, u[span], half, builder.speeds_on(span, u[span], half), 0);
     }
   }

@@ -27,7 +27,8 @@ struct CurvatureSample {
 /// + sqrt(R^2 - 1), and n = 5 points err by no more than
 ///   64/15 sqrt(3/2 q_0) r^(-2n) / (1 - r^-2),                                                  (1)
 /// 2.5e-12 of the interval's length. Any other curve is evaluated as it is, and an interval is
-/// accepted where its two halves agree with the whole.
+/// accepted where its two halves agree with the whole to 1e-10 mm or 1e-13 of the coordinates; the
+/// number of divisions is bounded.
 ///
 /// The object holds nothing of the curve's own; the calls take the curve that it was built for.
 class ArcLength {

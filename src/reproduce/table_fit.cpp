@@ -27,7 +27,8 @@ using identify::TableRun;
 constexpr double kLargestKf = 0.6;  // of the planning model, that is tried
 constexpr int kBitsOfKf = 12;       // a few thousandths
 constexpr std::size_t kErrors = 6;  // of a row: all figures but the time, which comes last
-constexpr double kMoved = 0.1;      // of a range, to see whether a parameter matters
+constexpr std::size_t kPopulation = 16;
+constexpr double kMoved = 0.1;  // of a range, to see whether a parameter matters
 
 /// The measured rows with their programs and the settings they are run with.
 class Rows {
@@ -100,9 +101,20 @@ double time_error(const Rows& rows, const std::vector<TableRun>& runs) {
   return std::sqrt(sum / static_cast<double>(runs.size()));
 }
 
+/// A stage of the search.
+struct Stage {
+  double share;   // of the evaluations
+  double spread;  // first standard deviation, of each range
+  std::size_t repeats;
+  double (*cost)(double ours, double published);
+  double weight_of_first;  // of the costs of the first run alone
+};
+constexpr Stage kWide{0.6, 0.12, 2, smooth_cost, 0.0};
+constexpr Stage kNear{0.4, 0.05, 3, share_cost, 0.4};
+
 double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const MachineFile& machine,
-               int repeats) {
-  const auto n = static_cast<std::size_t>(repeats);
+               const Stage& stage) {
+  const std::size_t n = stage.repeats;
   std::vector<std::array<double, kErrors>> figures(runs.size() * n);
   identify::parallel_for(figures.size(), [&](std::size_t i) {
     MachineFile file = machine;
@@ -116,7 +128,8 @@ double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const Machin
       for (std::size_t repeat = 0; repeat < n; ++repeat) {
         mean += figures[row * n + repeat][k] / static_cast<double>(n);
       }
-      cost += figure_cost(mean, rows.figures(row)[k]);
+      cost += stage.cost(mean, rows.figures(row)[k]) +
+              stage.weight_of_first * stage.cost(figures[row * n][k], rows.figures(row)[k]);
     }
   }
   return cost;
@@ -146,12 +159,18 @@ Expected<MachineFile> fit_planning(const Rows& rows, const MachineFile& start) {
 
 }  // namespace
 
-double figure_cost(double ours, double published) {
+double smooth_cost(double ours, double published) {
   const double e2 = std::pow(std::log(ours / published), 2);
   if (!std::isfinite(e2)) {
     return std::numeric_limits<double>::infinity();
   }
   return 0.5 * e2 / (e2 + 0.15 * 0.15) + 0.5 * e2 / (e2 + 0.28 * 0.28) + 0.05 * e2;
+}
+
+double share_cost(double ours, double published) {
+  const auto step = [](double x) { return 1.0 / (1.0 + std::exp(-x / 0.02)); };
+  const double d = std::abs(ours / published - 1.0);
+  return step(d - 0.19) + 0.8 * step(d - 0.285) + 0.25 * smooth_cost(ours, published);
 }
 
 Expected<TableFit> fit_tables(const Published& published, const MachineFile& start,
@@ -169,35 +188,47 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
   if (!runs) {
     return tl::unexpected(runs.error());
   }
-  const auto cost = [&](std::span<const double> x) {
-    return cost_of(*rows, *runs, parameters->with_units(*planned, x), options.repeats);
+  const auto cost = [&](std::span<const double> x, const Stage& stage) {
+    return cost_of(*rows, *runs, parameters->with_units(*planned, x), stage);
   };
-  identify::MinimiseOptions search;
-  search.start = parameters->units(*planned);
-  search.spread = options.spread;
-  search.evaluations = options.evaluations;
-  search.seed = options.seed;
-  search.stop = options.stop;
-  search.progress = options.progress;
-
   TableFit fit;
-  fit.cost_before = cost_of(*rows, *runs, *planned, options.repeats);
-  const identify::Minimum best = identify::minimise(cost, search);
-  fit.machine = parameters->with_units(*planned, best.x);
-  fit.cost_after = best.cost;
+  std::vector<double> x = parameters->units(*planned);
+  fit.cost_before = cost(x, kNear);
+  double done = 0.0;
+  for (const Stage& stage : {kWide, kNear}) {
+    identify::MinimiseOptions search;
+    search.start = x;
+    search.spread = stage.spread;
+    search.population = kPopulation;
+    search.evaluations =
+        static_cast<std::size_t>(stage.share * static_cast<double>(options.evaluations));
+    search.seed = options.seed;
+    search.stop = options.stop;
+    if (options.progress) {
+      search.progress = [&](double share, double least) {
+        options.progress(done + share * stage.share, least);
+      };
+    }
+    const identify::Minimum best =
+        identify::minimise([&](std::span<const double> at) { return cost(at, stage); }, search);
+    x = best.x;
+    fit.was_stopped = fit.was_stopped || best.was_stopped;
+    done += stage.share;
+  }
+  fit.machine = parameters->with_units(*planned, x);
+  fit.cost_after = cost(x, kNear);
   fit.time_error = time_error(*rows, *runs);
-  fit.was_stopped = best.was_stopped;
   const std::vector<double> before = parameters->values(start);
   const std::vector<double> after = parameters->values(fit.machine);
   for (std::size_t i = 0; i < parameters->size(); ++i) {
     FittedValue value{(*parameters)[i].key, before[i], after[i], 0.0, false};
-    value.is_at_bound = best.x[i] < 1e-3 || best.x[i] > 1.0 - 1e-3;
-    if (!best.was_stopped) {
-      std::vector<double> moved = best.x;
-      moved[i] = std::max(best.x[i] - kMoved, 0.0);
-      const double less = cost(moved);
-      moved[i] = std::min(best.x[i] + kMoved, 1.0);
-      value.rise = std::min(less, cost(moved)) - best.cost;
+    value.is_at_bound = x[i] < 1e-3 || x[i] > 1.0 - 1e-3;
+    if (!fit.was_stopped) {
+      std::vector<double> moved = x;
+      moved[i] = std::max(x[i] - kMoved, 0.0);
+      const double less = cost(moved, kNear);
+      moved[i] = std::min(x[i] + kMoved, 1.0);
+      value.rise = std::min(less, cost(moved, kNear)) - fit.cost_after;
     }
     fit.values.push_back(std::move(value));
   }

@@ -14,9 +14,7 @@ namespace twin::reproduce {
 
 /// How to fit a machine to the published tables.
 struct TableFitOptions {
-  std::size_t evaluations = 1500;  ///< of the cost, each of which runs every row `repeats` times
-  int repeats = 2;                 ///< runs of a row with different phases, whose mean counts
-  double spread = 0.12;            ///< first standard deviation of the search, of each range
+  std::size_t evaluations = 1700;  ///< of the cost; each runs every row two or three times
   std::uint32_t seed = 1;
   const std::atomic<bool>* stop = nullptr;       ///< set to end early with the best so far
   std::function<void(double, double)> progress;  ///< gets the done share and the least cost
@@ -45,18 +43,25 @@ struct TableFit {
 /// Cost of a figure that should be `published`: with e = ln(ours / published)
 ///   e^2 / (2 (e^2 + 0.15^2)) + e^2 / (2 (e^2 + 0.28^2)) + e^2 / 20,
 /// so that a figure that cannot be reached costs about 1 and does not pull the others along.
-double figure_cost(double ours, double published);
+double smooth_cost(double ours, double published);
+
+/// Cost of a figure by the shares in which figures are counted: with d = |ours / published - 1| and
+/// S the logistic function
+///   S((d - 0.19) / 0.02) + 0.8 S((d - 0.285) / 0.02) + smooth_cost / 4.
+double share_cost(double ours, double published);
 
 /// One set of parameters of the table and of the servo for all measured rows of the published
 /// tables.
 ///
 /// First the planning model: Kp / (1 - Kf) stays as it is (Eq. 1 with Table 2 gives it), and Kf is
 /// chosen so that the machining times fit best. Then the table: the rows, each with its own
-/// variants of the method, are run on identify::TableRun, and CMA-ES looks for the least sum of
-/// figure_cost over the errors of all rows, mean of `repeats` runs with the phases of
-/// with_phases_of_repeat.
+/// variants of the method, are run on identify::TableRun, and CMA-ES looks for the least sum over
+/// the errors of all rows, in two stages:
+///   smooth_cost of the mean of two runs, from the start far and wide;
+///   share_cost of the mean of three runs, and 0.4 of that of the first one, near what was found.
+/// The runs of a row have the phases of with_phases_of_repeat, the first one those of the machine.
 ///
-/// Masses and lead are held: the tables do not identify them, nor much else (see TableFit::values).
+/// Masses and lead are held: the tables do not identify them, nor much else (FittedValue::rise).
 Expected<TableFit> fit_tables(const Published& published, const config::MachineFile& start,
                               const TableFitOptions& options);
 

@@ -150,7 +150,7 @@ TEST(ReadNurbs, KnotsThatDescendOrOccurTooOftenOrTooSeldom) {
 }
 
 TEST(ReadNurbs, WeightsThatAreNoWeights) {
-  EXPECT_EQ(error_of(uniform("X1 Y2 P0\n")), "line 3:7: weight P0: expected 1e-06 to 1e+06");
+  EXPECT_EQ(error_of(uniform("X1 Y2 P0\n")), "line 3:7: weight P0: expected 0.0001 to 10000");
   EXPECT_THAT(error_of(with_knots("K0 X2 R-1\n")), HasSubstr("line 3:7: weight R-1"));
   EXPECT_THAT(error_of(with_knots("K0 R2\n")),
               HasSubstr("line 3:4: a weight without a control point"));

@@ -137,17 +137,19 @@ TEST(AxisModel, AnUnstableLoopFailsAndStaysFinite) {
   EXPECT_TRUE(has_failed);
 }
 
-TEST(Differentiate, IsExactForAParabolaInside) {
+TEST(Differentiate, IsExactWhereTheJerkIsConstant) {
   constexpr double kPeriod = 0.002;
   std::vector<double> positions;
   for (int k = 0; k < 20; ++k) {
     const double t = k * kPeriod;
-    positions.push_back(1.0 + 2.0 * t + 250.0 * t * t);
+    positions.push_back(1.0 + 2.0 * t + 250.0 * t * t + 5000.0 * t * t * t);
   }
   const auto set_points = differentiate(positions, kPeriod);
-  for (std::size_t k = 1; k + 1 < positions.size(); ++k) {
-    EXPECT_NEAR(set_points[k].velocity, 2.0 + 500.0 * static_cast<double>(k) * kPeriod, 1e-9);
-    EXPECT_NEAR(set_points[k].acceleration, 500.0, 1e-6);
+  for (std::size_t k = 2; k + 2 < positions.size(); ++k) {
+    const double t = static_cast<double>(k) * kPeriod;
+    EXPECT_EQ(set_points[k].position, positions[k]);
+    EXPECT_NEAR(set_points[k].velocity, 2.0 + 500.0 * t + 15000.0 * t * t, 1e-9);
+    EXPECT_NEAR(set_points[k].acceleration, 500.0 + 30000.0 * t, 1e-6);
   }
 }
 
