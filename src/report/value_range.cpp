@@ -28,7 +28,10 @@ double tic_step(const ValueRange& range) {
   return 10.0 * decade;
 }
 
-std::string y_axis(const ValueRange& range) {
+std::string y_axis(const ValueRange& values) {
+  constexpr double kFlat = 1e-6;  // all values alike: an axis needs some length
+  const ValueRange range =
+      values.high - values.low > kFlat ? values : ValueRange{values.low, values.low + 1.0};
   const double step = tic_step(range);
   return fmt::format("  set yrange [{:g}:{:g}]\n  set ytics {:g}\n",
                      step * std::floor(range.low / step + 1e-9),

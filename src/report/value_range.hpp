@@ -19,7 +19,7 @@ ValueRange range_of(const trace::Table& table, std::size_t column);
 double tic_step(const ValueRange& range);
 
 /// gnuplot commands for the vertical axis: whole steps, few enough numbers to read.
-std::string y_axis(const ValueRange& range);
+std::string y_axis(const ValueRange& values);
 
 /// The same for feedrates from 0; below the axis there is room for letters where `has_letters`.
 ///

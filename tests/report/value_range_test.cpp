@@ -28,6 +28,10 @@ TEST(ValueRange, AxisHoldsAllValues) {
   EXPECT_EQ(y_axis({0.0, 20.0}), "  set yrange [0:20]\n  set ytics 5\n");
 }
 
+TEST(ValueRange, AxisOfValuesThatAreAllZeroHasALength) {
+  EXPECT_EQ(y_axis({0.0, 0.0}), "  set yrange [0:1]\n  set ytics 0.2\n");
+}
+
 TEST(ValueRange, IsThatOfAColumnAndZero) {
   const trace::Table table{2, {1.0, -3.0, 2.0, -5.0, 3.0, -4.0}};
   EXPECT_EQ(range_of(table, 0).low, 0.0);
