@@ -245,6 +245,10 @@ AxisFit AxisFitter::run() {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const ParameterSet one = ParameterSet::create({candidates_[i].parameter}).value();
     results_[i].value = one.values(current_).front();
+    if (results_[i].verdict == Verdict::kIdentified && results_[i].relative > kMostRelative) {
+      results_[i].verdict = Verdict::kUnidentified;
+      results_[i].why = "depends too much on others that are not identified";
+    }
   }
   fit_.machine = current_;
   fit_.parameters = std::move(results_);

@@ -43,7 +43,7 @@ std::vector<feedrate::PlannedSegment> plan_of_circle() {
   }
   std::vector<feedrate::PlannedSegment> plan;
   gcode::Reader reader = gcode::Reader::from_text(text, "bench.nc");
-  (void)plan_program(reader, config::MachineFile{}, true, [&](feedrate::PlannedSegment&& planned) {
+  (void)plan_program(reader, config::MachineFile{}, [&](feedrate::PlannedSegment&& planned) {
     plan.push_back(std::move(planned));
     return true;
   });

@@ -52,6 +52,7 @@ const std::string kPlanKeys1 =
     "compression_factor path_length_mm planned_time_s ";
 const std::string kAxis = "{velocity_mm_per_s acceleration_mm_per_s2 jerk_mm_per_s3}";
 const std::string kAudit =
+    "feedrate_fluctuation_percent{max rms} "
     "audit{feedrate_mm_per_s tangential_acceleration_mm_per_s2 tangential_jerk_mm_per_s3 "
     "normal_acceleration_mm_per_s2 axis{x" +
     kAxis + " y" + kAxis + " z" + kAxis + "}}";

@@ -12,8 +12,7 @@ TEST_F(Usage, HelpListsTheCommandsOnStdout) {
   const auto result = twin({"--help"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, IsEmpty());
-  for (const char* command :
-       {"run", "plan", "circle", "check", "convert", "render", "reproduce"}) {
+  for (const char* command : {"run", "plan", "circle", "check", "convert", "render", "reproduce"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("\n  ") + command));
   }
   const auto run = twin({"run", "--help"});
