@@ -215,8 +215,12 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
     fit.was_stopped = fit.was_stopped || best.was_stopped;
     done += stage.share;
   }
-  fit.machine = parameters->with_units(*planned, x);
   fit.cost_after = cost(x, kNear);
+  if (fit.cost_after > fit.cost_before) {  // the wide stage has left what was better
+    x = parameters->units(*planned);
+    fit.cost_after = fit.cost_before;
+  }
+  fit.machine = parameters->with_units(*planned, x);
   fit.time_error = time_error(*rows, *runs);
   const std::vector<double> before = parameters->values(start);
   const std::vector<double> after = parameters->values(fit.machine);
