@@ -12,11 +12,13 @@
 namespace twin::cli {
 namespace {
 
+constexpr double kLeastRadius = 0.1;    // [mm]; smaller ones are made of a few set points
 constexpr double kLongestTurn = 600.0;  // [s]; the paths are held in memory
 
 Expected<void> check_radius(double radius, const Limits& limits) {
-  if (!(radius > 0.0) || !std::isfinite(radius)) {
-    return fail(ErrorCode::kUsage, fmt::format("--radius-mm {:g} is not above 0", radius));
+  if (!(radius >= kLeastRadius) || !std::isfinite(radius)) {
+    return fail(ErrorCode::kUsage,
+                fmt::format("--radius-mm {:g} is not at least {:g}", radius, kLeastRadius));
   }
   const double room = std::min({limits.travel_max.x(), limits.travel_max.y(),
                                 -limits.travel_min.x(), -limits.travel_min.y()});

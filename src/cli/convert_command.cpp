@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/results.hpp"
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
 #include "convert/comparison.hpp"
@@ -93,17 +94,6 @@ fs::path output_of(const Options& options, const fs::path& program,
   return fs::path("renders") / program.stem() / name;
 }
 
-Expected<void> write(const fs::path& file, const std::string& text) {
-  if (file.has_parent_path()) {
-    std::error_code failure;
-    fs::create_directories(file.parent_path(), failure);
-    if (failure) {
-      return file_error(file.parent_path(), "create folder", failure.value());
-    }
-  }
-  return write_whole_file(file, text);
-}
-
 void print(const Job& job, const convert::Dialect& dialect, const convert::Conversion& c,
            const convert::Deviation& deviation) {
   fmt::print("{} for {}\n\n", job.program.filename().string(), dialect.control());
@@ -136,9 +126,17 @@ Expected<void> convert_command(const Options& options) {
   if (!program) {
     return tl::unexpected(program.error());
   }
+  const auto dialect = convert::make_dialect(options.dialect);
+  const fs::path file = output_of(options, *program, *dialect);
+  if (auto prepared = prepare_output_file(file); !prepared) {
+    return prepared;
+  }
+  std::error_code ignored;
+  if (fs::equivalent(file, *program, ignored)) {
+    return fail(ErrorCode::kUsage, "--out " + file.string() + " is the program itself");
+  }
   Job job{*program, {}, *machine};
   job.reading.feedrate = feedrate_of(options);
-  const auto dialect = convert::make_dialect(options.dialect);
   auto conversion = convert_to(job, *dialect);
   if (!conversion) {
     return tl::unexpected(conversion.error());
@@ -147,8 +145,7 @@ Expected<void> convert_command(const Options& options) {
   if (!deviation) {
     return tl::unexpected(deviation.error());
   }
-  const fs::path file = output_of(options, *program, *dialect);
-  if (auto written = write(file, conversion->text); !written) {
+  if (auto written = write_whole_file(file, conversion->text); !written) {
     return written;
   }
   if (!options.quiet) {

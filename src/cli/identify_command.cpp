@@ -8,6 +8,7 @@
 #include "cli/identify_options.hpp"
 #include "cli/identify_tables.hpp"
 #include "cli/progress.hpp"
+#include "cli/results.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
 #include "identify/identify.hpp"
@@ -71,14 +72,6 @@ Expected<std::vector<identify::Recording>> read_all(const IdentifyOptions& optio
 /// Writes the machine file and identify.json beside it.
 Expected<void> write_results(const identify::Identification& result,
                              const std::filesystem::path& out) {
-  std::error_code code;
-  if (out.has_parent_path()) {
-    std::filesystem::create_directories(out.parent_path(), code);
-  }
-  if (code) {
-    return tl::unexpected(Error{ErrorCode::kFile, "cannot make this folder: " + code.message(),
-                                out.parent_path().string(), 0, 0});
-  }
   if (auto written = write_whole_file(out, identify::to_machine_file(result)); !written) {
     return written;
   }
@@ -142,6 +135,9 @@ Expected<void> identify_command(const Options& options, const IdentifyOptions& i
   const auto machine = read_machine(options);
   if (!machine) {
     return tl::unexpected(machine.error());
+  }
+  if (auto prepared = prepare_output_file(output_of(options)); !prepared) {
+    return prepared;
   }
   if (!identify.tables) {
     return identify_traces(options, identify, *machine, stop);

@@ -21,7 +21,8 @@ void add_identify_options(CLI::App& command, Options& options, IdentifyOptions& 
                   "[renders/identify/identified.toml]")
       ->type_name("FILE.toml");
   command
-      .add_option("--fix", identify.fixed, "Keys that keep their value, as in table.x.screw_lead")
+      .add_option("--fix", identify.fixed,
+                  "Keys that keep their value, as in table.x.output_delay_ms")
       ->delimiter(',')
       ->type_name("KEY,...")
       ->take_all()

@@ -10,6 +10,10 @@
 
 namespace twin::cli {
 
+/// Makes the folder of a file that will be written at the end of long work, and refuses a name that
+/// cannot become one.
+Expected<void> prepare_output_file(const std::filesystem::path& file);
+
 /// Removes the files of an earlier run in the folder that this one does not make again.
 void remove_stale_results(const std::filesystem::path& folder);
 

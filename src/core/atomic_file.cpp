@@ -34,6 +34,13 @@ tl::unexpected<Error> file_error(const std::filesystem::path& file, std::string_
 
 Expected<AtomicFile> AtomicFile::create(std::filesystem::path target,
                                         std::filesystem::path temporary, OnAbandon on_abandon) {
+  std::error_code ignored;
+  const auto existing = std::filesystem::status(target, ignored);
+  if (std::filesystem::exists(existing) && !std::filesystem::is_regular_file(existing)) {
+    return tl::unexpected<Error>(
+        Error{ErrorCode::kFile, "cannot write: there is something else than a file of this name",
+              target.string(), 0, 0});
+  }
   const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     return file_error(temporary, "open for writing", errno);

@@ -12,10 +12,11 @@
 namespace twin::identify {
 namespace {
 
-constexpr double kSpread = 0.12;  // of a global search about its start, of the unit cube
-constexpr int kSearches = 2;      // global searches at most
-constexpr double kGoodFit = 1.1;  // of what rounding makes: nothing is left to search for
-constexpr int kCoarseRank = 8;    // hold_rank from which on a parameter is fitted first
+constexpr double kSpread = 0.12;   // of a global search about its start, of the unit cube
+constexpr int kSearches = 2;       // global searches at most
+constexpr double kGoodFit = 1.1;   // of what rounding makes: nothing is left to search for
+constexpr double kWorseFit = 1.2;  // of the residual, that holding parameters may make
+constexpr int kCoarseRank = 8;     // hold_rank from which on a parameter is fitted first
 constexpr double kPopulationPerFree = 1.5;
 constexpr int kMostRounds = 8;         // of holding what is not shown and fitting the rest again
 constexpr int kAlignments = 3;         // of hum phases and all else, one after the other
@@ -194,10 +195,15 @@ void AxisFitter::judge_and_hold() {
         judged, [&](const Eigen::VectorXd& u) { return residuals(set, u); },
         static_cast<Eigen::Index>(std::lround(kBlock / current_.period)));
     report(kSearchEnd + (1.0 - kSearchEnd) * (round + 1.0) / (kMostRounds + 1.0));
+    const config::MachineFile fitted = current_;
+    const double residual = rms_of(fitted);
     if (!take(places, judgement) || (options_.stop != nullptr && options_.stop->load())) {
       return;
     }
     polish(has_volts() ? 20 : 60);
+    if (!(rms_of(current_) < kWorseFit * residual)) {
+      current_ = fitted;  // the starting values do not fit at all: held where the fit has them
+    }
   }
 }
 

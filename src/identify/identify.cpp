@@ -13,6 +13,7 @@
 namespace twin::identify {
 namespace {
 
+constexpr double kPoorPrediction = 0.2;    // of the RMS tracking error
 constexpr double kPeriodTolerance = 1e-4;  // relative, between recordings
 
 Expected<void> check_periods(const std::vector<Recording>& recordings) {
@@ -87,6 +88,20 @@ std::vector<Prediction> predict(const std::vector<Recording>& recordings,
   return result;
 }
 
+/// Says of which traces the identified machine is no model.
+void note_poor_predictions(Identification& result) {
+  for (const Prediction& p : result.predictions) {
+    const double ratio = p.simulated.rms / p.measured.rms;
+    if (!(std::abs(ratio - 1.0) <= kPoorPrediction)) {
+      result.notes.push_back(fmt::format(
+          "{}: the identified machine does not fit {}: tracking error {:.3g} um RMS, measured "
+          "{:.3g} um. Start from a machine file that is nearer (--machine, --set), or give the "
+          "drive commands too",
+          p.trace, p.axis == hal::kX ? "X" : "Y", 1e3 * p.simulated.rms, 1e3 * p.measured.rms));
+    }
+  }
+}
+
 /// Progress of two fits at a time as one.
 class SharedProgress {
  public:
@@ -141,6 +156,7 @@ Expected<Identification> identify(const std::vector<Recording>& recordings,
     return fail(ErrorCode::kInterrupted, "interrupted: nothing was written");
   }
   result.predictions = predict(recordings, result.machine);
+  note_poor_predictions(result);
   return result;
 }
 

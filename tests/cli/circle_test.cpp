@@ -134,9 +134,9 @@ TEST_F(CircleCommand, SlowsDownWhereTheLimitsDemandAndSaysSo) {
 }
 
 TEST_F(CircleCommand, RefusesARadiusThatIsNoneOrLeavesTheTravel) {
-  expect_refused({"--radius-mm", "0"}, 2, "--radius-mm 0 is not above 0");
-  expect_refused({"--radius-mm", "-5"}, 2, "--radius-mm -5 is not above 0");
-  expect_refused({"--radius-mm", "nan"}, 2, "--radius-mm nan is not above 0");
+  expect_refused({"--radius-mm", "0"}, 2, "--radius-mm 0 is not at least 0.1");
+  expect_refused({"--radius-mm", "-5"}, 2, "--radius-mm -5 is not at least 0.1");
+  expect_refused({"--radius-mm", "nan"}, 2, "--radius-mm nan is not at least 0.1");
   expect_refused({"--radius-mm", "250"}, 2, "--radius-mm 250 leaves the travel");
   expect_refused({"--radius-mm", "250"}, 2, "room for 200 mm");
   expect_refused({"--radius-mm", "wide"}, 2, "--radius-mm");

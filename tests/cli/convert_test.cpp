@@ -78,6 +78,15 @@ TEST_F(Convert, FileThatCannotBeWritten) {
   expect_refusal(twin({"convert", "ok.nc", "--to", "g6.2", "--out", "file/made.nc"}), 1, "file");
 }
 
+TEST_F(Convert, DoesNotWriteOverTheProgramOrADevice) {
+  folder.put("own.nc", "G01 X10 F600\nM30\n");
+  expect_refusal(twin({"convert", "own.nc", "--to", "g5.2", "--out", "own.nc"}), 2,
+                 "is the program itself");
+  EXPECT_EQ(std::filesystem::file_size(folder / "own.nc"), 17U);
+  expect_refusal(twin({"convert", "ok.nc", "--to", "g5.2", "--out", "/dev/null"}), 1, "/dev/null");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
 TEST_F(Convert, ToleranceOfTheMachineFileCounts) {
   const auto narrow =
       twin({"convert", "oxalis.nc", "--to", "g6.2", "--set", "planning.chord_error=0.0005"});
