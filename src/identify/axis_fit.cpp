@@ -232,6 +232,22 @@ double AxisFitter::rms_of(const config::MachineFile& machine) {
   return std::sqrt(all.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(all.size(), 1)));
 }
 
+/// Frequency and phase of a hum that is not there mean nothing.
+void AxisFitter::doubt_hum_without_amplitude() {
+  const auto is_unknown = [](const FittedParameter& p) {
+    return p.key.ends_with("hum_amplitude_mV") && p.verdict == Verdict::kUnidentified;
+  };
+  if (std::ranges::none_of(results_, is_unknown)) {
+    return;
+  }
+  for (FittedParameter& p : results_) {
+    if (p.key.find(".hum_") != std::string::npos && p.verdict == Verdict::kIdentified) {
+      p.verdict = Verdict::kUnidentified;
+      p.why = "there is no hum to speak of";
+    }
+  }
+}
+
 AxisFit AxisFitter::run() {
   problem_.use(1);  // further records join a fit that is near already
   estimate_directly();
@@ -256,6 +272,7 @@ AxisFit AxisFitter::run() {
       results_[i].why = "depends too much on others that are not identified";
     }
   }
+  doubt_hum_without_amplitude();
   fit_.machine = current_;
   fit_.parameters = std::move(results_);
   fit_.was_stopped = options_.stop != nullptr && options_.stop->load();

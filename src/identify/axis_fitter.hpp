@@ -40,6 +40,7 @@ class AxisFitter {
   void hold(std::size_t place, Verdict verdict, double sigma, double relative, std::string why);
   void report(double share) const;
   FittedParameter& result(const std::string& key, const std::string& name);
+  void doubt_hum_without_amplitude();
   double rms_of(const config::MachineFile& machine);
 
   AxisProblem problem_;
