@@ -21,6 +21,8 @@ target_compile_options(twin_options INTERFACE
 if(TWIN_SANITIZE)
   target_compile_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE})
+  # Eigen would allocate in another way under a sanitizer than in libpagmo, which frees what this program allocates.
+  target_compile_definitions(twin_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # twin_library(gcode SOURCES a.cpp b.cpp DEPS twin_core ...)
