@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/atomic_file.hpp"
-#include "plot/gnuplot.hpp"
+#include "plot/draw.hpp"
 #include "trace/csv_file.hpp"
 
 namespace twin::report {
@@ -52,25 +52,15 @@ Expected<void> Album::write_data(const std::string& name, std::span<const std::s
   return file->commit();
 }
 
-Expected<void> Album::add(const std::string& name, const std::string& title,
-                          const std::vector<Panel>& panels,
-                          const std::vector<std::string>& legend) {
-  scripts_.push_back(name + ".gp");
+void Album::add(const std::string& name, const std::string& title, const std::vector<Panel>& panels,
+                const std::vector<std::string>& legend) {
+  scripts_.push_back({name, figure_script(name, title, panels, legend)});
   pictures_.push_back({name, title});
-  return write_whole_file(folder_ / scripts_.back(), figure_script(name, title, panels, legend));
 }
 
 Expected<std::vector<Picture>> Album::draw() {
-  if (auto drawn = plot::run_gnuplot(folder_, scripts_); !drawn) {
+  if (auto drawn = plot::draw(folder_, scripts_); !drawn) {
     return tl::unexpected(std::move(drawn.error()));
-  }
-  for (const Picture& picture : pictures_) {
-    for (const char* extension : {".png", ".svg"}) {
-      std::error_code code;
-      if (fs::file_size(folder_ / (picture.name + extension), code) == 0 || code) {
-        return fail(ErrorCode::kFile, "gnuplot did not write picture " + picture.name + extension);
-      }
-    }
   }
   std::ranges::sort(pictures_, {}, &Picture::name);
   return std::move(pictures_);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "plot/scripts.hpp"
 #include "report/figure_script.hpp"
 #include "trace/decimator.hpp"
 
@@ -34,8 +35,8 @@ class Album {
                             const trace::Table& table) const;
 
   /// Adds a figure whose panels read the data of this folder.
-  Expected<void> add(const std::string& name, const std::string& title,
-                     const std::vector<Panel>& panels, const std::vector<std::string>& legend = {});
+  void add(const std::string& name, const std::string& title, const std::vector<Panel>& panels,
+           const std::vector<std::string>& legend = {});
 
   /// Draws what was added.
   /// @returns the pictures by name
@@ -45,7 +46,7 @@ class Album {
   explicit Album(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   std::filesystem::path folder_;
-  std::vector<std::string> scripts_;
+  std::vector<plot::Script> scripts_;
   std::vector<Picture> pictures_;
 };
 

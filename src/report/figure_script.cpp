@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 
+#include "plot/scripts.hpp"
+
 namespace twin::report {
 namespace {
+
+using plot::quoted;
 
 constexpr int kTitle = 58;    // height of what stands above the panels [pixels]
 constexpr int kCaption = 52;  // above each panel
@@ -18,15 +22,6 @@ constexpr int kLegend = 46;  // below the title, where there is one
 
 /// Colours that colour-blind readers can tell apart (Okabe and Ito).
 constexpr std::array<std::string_view, 4> kColours{"#0072B2", "#D55E00", "#009E73", "#606060"};
-
-/// A gnuplot string constant; a quote is written twice.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    result += c == '\'' ? "''" : std::string(1, c);
-  }
-  return result + "'";
-}
 
 int height_of(const std::vector<Panel>& panels, int top) {
   int height = top;

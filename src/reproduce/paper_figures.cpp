@@ -47,8 +47,9 @@ Expected<void> add_contour(Album& album, int number, const Answer& answer) {
   if (!table) {
     return tl::unexpected(table.error());
   }
-  return album.add(name, title_of(number, program, "contour, feedrate"),
-                   contour_panels(*table, name, answer.published.feedrate_mm_per_min / 60.0));
+  album.add(name, title_of(number, program, "contour, feedrate"),
+            contour_panels(*table, name, answer.published.feedrate_mm_per_min / 60.0));
+  return {};
 }
 
 /// Figs. 14, 15.
@@ -72,7 +73,8 @@ Expected<void> add_feedrates(Album& album, int number, const std::string& progra
                   kFeedrate, data, "feedrate_mm_per_s", 1, 230));
     panels.back().settings = report::feedrate_axis(feedrate / 60.0, false);
   }
-  return album.add(name, title_of(number, program, "feedrate profiles"), panels);
+  album.add(name, title_of(number, program, "feedrate profiles"), panels);
+  return {};
 }
 
 /// Figs. 16, 17.
@@ -97,7 +99,8 @@ Expected<void> add_errors(Album& album, int number, const Answer& answer) {
   panels[0].settings = report::y_axis(range_of(*table, 1));
   panels[1].settings = report::y_axis({std::min(x.low, y.low), std::max(x.high, y.high)});
   panels[2].settings = panels[1].settings;
-  return album.add(name, title_of(number, program, "measured errors"), panels);
+  album.add(name, title_of(number, program, "measured errors"), panels);
+  return {};
 }
 
 /// Figs. 18, 19.
@@ -116,7 +119,8 @@ Expected<void> add_bezier(Album& album, int number, const Answer& answer) {
       over_time("(b) contour errors", "contour error [µm]", name, "contour_error_um", 1, 270)};
   panels[0].settings = report::feedrate_axis(answer.published.feedrate_mm_per_min / 60.0, false);
   panels[1].settings = report::y_axis(range_of(*table, 2));
-  return album.add(name, title_of(number, program, "Fast Bezier"), panels);
+  album.add(name, title_of(number, program, "Fast Bezier"), panels);
+  return {};
 }
 
 Expected<void> add_program(Album& album, const Variant& variant, const std::string& program,
