@@ -1,6 +1,7 @@
 #include "batch/run_jobs.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -47,14 +48,14 @@ class Pool {
 
   /// Takes jobs until there are none; several threads call it.
   void work() {
-    for (std::size_t i = next_++; i < jobs_.size() && goes_on(); i = next_++) {
+    for (std::size_t i = next_++; i < jobs_.size() && is_wanted(i); i = next_++) {
       auto summary = run_job(jobs_[i], options_);
       const std::lock_guard lock(mutex_);
       if (summary) {
         summaries_[i] = std::move(*summary);
-      } else if (!error_) {
+      } else if (i < first_failed_) {
         error_ = std::move(summary.error());
-        has_failed_ = true;
+        first_failed_ = i;
       }
       ++done_;
       if (options_.progress) {
@@ -74,14 +75,16 @@ class Pool {
   }
 
  private:
-  bool goes_on() const {
-    return !has_failed_ && !(options_.stop != nullptr && options_.stop->load());
+  /// A job before the first that failed is run even after that failure: it may be the first to
+  /// fail.
+  bool is_wanted(std::size_t job) const {
+    return job < first_failed_ && !(options_.stop != nullptr && options_.stop->load());
   }
 
   std::span<const Job> jobs_;
   const Options& options_;
   std::atomic<std::size_t> next_{0};
-  std::atomic<bool> has_failed_{false};
+  std::atomic<std::size_t> first_failed_{std::numeric_limits<std::size_t>::max()};
   std::mutex mutex_;  // of what follows
   std::vector<metrics::Summary> summaries_;
   std::optional<Error> error_;

@@ -41,10 +41,10 @@ struct Options {
 /// Runs the jobs, as many at a time as there are cores, in lockstep, so that no figure depends on
 /// what runs beside it.
 ///
-/// The first failure ends the rest early: no job is begun after it.
+/// A failure ends the rest early: no job behind it is begun.
 ///
-/// @returns the summaries in the order of the jobs, or the error of the first job that failed, with
-/// its name
+/// @returns the summaries in the order of the jobs, or the error of the first in that order that
+/// fails, with its name; which one that is does not depend on what runs beside it
 Expected<std::vector<metrics::Summary>> run_jobs(std::span<const Job> jobs, const Options& options);
 
 }  // namespace twin::batch
