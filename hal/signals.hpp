@@ -27,6 +27,8 @@ struct Inputs {
   std::array<bool, kServoAxes> alarm{};           ///< true: drive alarm
   std::array<bool, kServoAxes> limit_positive{};  ///< true: P-OT reached
   std::array<bool, kServoAxes> limit_negative{};  ///< true: N-OT reached
+  std::array<bool, kServoAxes> index{};           ///< true: the encoder's index was met since the
+                                                  ///< last read(); false where it has none
 };
 
 /// What only a simulated machine knows: where the table really is.
