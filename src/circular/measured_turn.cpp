@@ -18,28 +18,16 @@ constexpr std::size_t kFewestRows = 60;
 Expected<MeasuredTurn> read_measured_turn(const std::filesystem::path& trace) {
   constexpr std::array<std::string_view, 6> kWanted{"line",       "feedrate_mm_per_s", "x_table_mm",
                                                     "y_table_mm", "x_enc_mm",          "y_enc_mm"};
-  auto reader = trace::CsvReader::open(trace);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  if (auto selected = reader->select(kWanted); !selected) {
-    return tl::unexpected(selected.error());
-  }
   MeasuredTurn turn;
-  std::array<double, kWanted.size()> row{};
-  for (;;) {
-    const auto has_row = reader->next(row);
-    if (!has_row) {
-      return tl::unexpected(has_row.error());
-    }
-    if (!*has_row) {
-      break;
-    }
+  const auto take = [&turn](std::span<const double> row) {
     if (row[0] == static_cast<double>(kMeasuredLine)) {
       turn.feedrate += row[1];
       turn.table.emplace_back(row[2], row[3]);
       turn.encoder.emplace_back(row[4], row[5]);
     }
+  };
+  if (auto read = trace::read_rows(trace, kWanted, take); !read) {
+    return tl::unexpected(read.error());
   }
   const std::size_t count = turn.table.size();
   if (count < kFewestRows) {

@@ -42,52 +42,24 @@ trace::Table envelope(const trace::Table& table, std::size_t pieces) {
 }
 
 Expected<trace::Table> read_contour_error(const std::filesystem::path& trace) {
-  auto reader = trace::CsvReader::open(trace);
-  if (!reader) {
-    return tl::unexpected(std::move(reader.error()));
-  }
-  if (auto chosen = reader->select(std::array<std::string_view, 2>{"t_s", "contour_error_um"});
-      !chosen) {
-    return tl::unexpected(std::move(chosen.error()));
-  }
+  constexpr std::array<std::string_view, 2> kColumns{"t_s", "contour_error_um"};
   trace::Table table{2, {}};
-  std::array<double, 2> row{};
-  for (;;) {
-    auto has_row = reader->next(row);
-    if (!has_row) {
-      return tl::unexpected(std::move(has_row.error()));
-    }
-    if (!*has_row) {
-      return table;
-    }
-    add_row(table, row[0], row[1]);
+  const auto take = [&table](std::span<const double> row) { add_row(table, row[0], row[1]); };
+  if (auto read = trace::read_rows(trace, kColumns, take); !read) {
+    return tl::unexpected(std::move(read.error()));
   }
+  return table;
 }
 
 Expected<trace::Table> read_fluctuation(const std::filesystem::path& trace, double period) {
-  auto reader = trace::CsvReader::open(trace);
-  if (!reader) {
-    return tl::unexpected(std::move(reader.error()));
-  }
   constexpr std::array<std::string_view, 5> kColumns{"t_s", "x_cmd_mm", "y_cmd_mm", "z_cmd_mm",
                                                      "feedrate_mm_per_s"};
-  if (auto chosen = reader->select(kColumns); !chosen) {
-    return tl::unexpected(std::move(chosen.error()));
-  }
   trace::Table table{2, {}};
   std::deque<std::array<double, 5>> window;
-  std::array<double, 5> row{};
-  for (;;) {
-    auto has_row = reader->next(row);
-    if (!has_row) {
-      return tl::unexpected(std::move(has_row.error()));
-    }
-    if (!*has_row) {
-      return table;
-    }
-    window.push_back(row);
+  const auto take = [&](std::span<const double> row) {
+    window.push_back({row[0], row[1], row[2], row[3], row[4]});
     if (window.size() < 4) {
-      continue;
+      return;
     }
     metrics::FeedrateFluctuation one_period(period);
     for (const auto& [t, x, y, z, feedrate] : window) {
@@ -97,7 +69,11 @@ Expected<trace::Table> read_fluctuation(const std::filesystem::path& trace, doub
       add_row(table, 0.5 * (window[1][0] + window[2][0]), 100.0 * one_period.shares().max());
     }
     window.pop_front();
+  };
+  if (auto read = trace::read_rows(trace, kColumns, take); !read) {
+    return tl::unexpected(std::move(read.error()));
   }
+  return table;
 }
 
 }  // namespace twin::compare

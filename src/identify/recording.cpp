@@ -152,19 +152,14 @@ Expected<Recording> read_recording(const std::filesystem::path& file, const Colu
   Recording recording;
   recording.file = file;
   std::vector<double> time;
-  std::vector<double> row(signals->size());
-  for (;;) {
-    const auto has_row = reader->next(row);
-    if (!has_row) {
-      return tl::unexpected(has_row.error());
-    }
-    if (!*has_row) {
-      break;
-    }
+  const auto take = [&](std::span<const double> row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::size_t signal = (*signals)[i];
       signal_of(recording, time, signal).push_back(row[i] * columns[signal].to_base);
     }
+  };
+  if (auto read = reader->for_each_row(take); !read) {
+    return tl::unexpected(read.error());
   }
   recording.rows = time.size();
   if (time.size() < kFewestRows) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -35,6 +36,22 @@ class CsvReader {
   /// @returns false when there is no further row
   Expected<bool> next(std::span<double> values);
 
+  /// Calls `take(std::span<const double>)` with every further row.
+  template <class Take>
+  Expected<void> for_each_row(Take&& take) {
+    std::vector<double> row(chosen_);
+    for (;;) {
+      const auto has_row = next(row);
+      if (!has_row) {
+        return tl::unexpected(has_row.error());
+      }
+      if (!*has_row) {
+        return {};
+      }
+      take(std::span<const double>(row));
+    }
+  }
+
   int line() const noexcept { return line_; }  ///< line of the last row, from 1
 
  private:
@@ -58,5 +75,19 @@ class CsvReader {
   std::size_t chosen_ = 0;
   std::size_t last_field_ = 0;  // fields beyond this one are not looked at
 };
+
+/// Calls `take(std::span<const double>)` with the chosen columns of every row of a file.
+template <class Take>
+Expected<void> read_rows(const std::filesystem::path& file,
+                         std::span<const std::string_view> columns, Take&& take) {
+  auto reader = CsvReader::open(file);
+  if (!reader) {
+    return tl::unexpected(std::move(reader.error()));
+  }
+  if (auto chosen = reader->select(columns); !chosen) {
+    return chosen;
+  }
+  return reader->for_each_row(std::forward<Take>(take));
+}
 
 }  // namespace twin::trace

@@ -118,27 +118,14 @@ Table Decimator::finish() {
 
 Expected<Table> load_decimated(const std::filesystem::path& file,
                                std::span<const std::string_view> columns, std::size_t max_rows) {
-  auto reader = CsvReader::open(file);
-  if (!reader) {
-    return tl::unexpected(std::move(reader.error()));
-  }
-  if (auto chosen = reader->select(columns); !chosen) {
-    return tl::unexpected(std::move(chosen.error()));
-  }
   std::vector<std::size_t> watched(columns.size());
   std::iota(watched.begin(), watched.end(), std::size_t{0});
   Decimator decimator(columns.size(), std::move(watched), max_rows);
-  std::vector<double> row(columns.size());
-  for (;;) {
-    auto got = reader->next(row);
-    if (!got) {
-      return tl::unexpected(std::move(got.error()));
-    }
-    if (!*got) {
-      return decimator.finish();
-    }
-    decimator.push(row);
+  const auto push = [&decimator](std::span<const double> row) { decimator.push(row); };
+  if (auto read = read_rows(file, columns, push); !read) {
+    return tl::unexpected(std::move(read.error()));
   }
+  return decimator.finish();
 }
 
 }  // namespace twin::trace
