@@ -34,6 +34,8 @@ class Drive {
   double step(double volts, double speed, double time, const DriveSignals& signals) noexcept;
   /// Torque-free, filters empty, alarm cleared. Real-time safe.
   void reset() noexcept;
+  /// Gives alarm. Real-time safe.
+  void trip() noexcept { has_alarm_ = true; }
 
   bool is_ready() const noexcept { return is_ready_; }
   bool has_alarm() const noexcept { return has_alarm_; }

@@ -1,14 +1,9 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
-#include "hal/mujoco/table_physics.hpp"
-#include "hal/mujoco/table_settings.hpp"
+#include "hal/mujoco/table_plant.hpp"
 
 namespace twin::hal {
 
@@ -28,24 +23,16 @@ Expected<void> MujocoMachine::configure(double period) {
     return fail(ErrorCode::kMachine, "the table is active; deactivate it before configure");
   }
   cleanup();
-  if (!(period > 0.0) || !std::isfinite(period)) {
-    return fail(ErrorCode::kMachine, fmt::format("period {} s is not above 0", period));
+  Expected<std::unique_ptr<TablePlant>> plant = TablePlant::open(params_, period);
+  if (!plant) {
+    return tl::unexpected<Error>(plant.error());
   }
-  if (Expected<void> valid = validate(params_); !valid) {
-    return valid;
-  }
-  steps_ = steps_per_period(period, params_.physics_step);
-  step_ = period / steps_;
-  Expected<std::unique_ptr<TablePhysics>> physics = TablePhysics::open(params_, step_);
-  if (!physics) {
-    return tl::unexpected<Error>(physics.error());
-  }
-  physics_ = std::move(*physics);
-  steps_done_ = 0;
+  plant_ = std::move(*plant);
   origin_.fill(0.0);
-  pen_reference_ = 0.0;
-  for (const AxisParams& axis : params_.axis) {
-    axes_.emplace_back(axis, step_);
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    dacs_.emplace_back(params_.axis[axis].dac_bits);
+    encoders_.emplace_back(params_.axis[axis].encoder);
+    plant_->set_external_force(axis, external_force_[axis]);
   }
   state_ = State::kInactive;
   return {};
@@ -56,43 +43,17 @@ Expected<void> MujocoMachine::activate() {
     return fail(ErrorCode::kMachine, state_ == State::kActive ? "the table is active already"
                                                               : "the table is not configured");
   }
-  if (fault_ == Fault::kUnstable || fault_ == Fault::kMujoco) {
+  if (fault_ == Fault::kPlant) {
     return fail(ErrorCode::kMachine, "the table must be configured again: " + last_error());
   }
   fault_ = Fault::kNone;
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
-    axes_[axis].reset_drive();
-    axes_[axis].encoder().zero(physics_->encoder_position(axis));
-    origin_[axis] = physics_->motion(axis).position;
+    plant_->reset_drive(axis);
+    encoders_[axis].zero(plant_->encoder_position(axis));
+    origin_[axis] = plant_->position(axis);
   }
   state_ = State::kActive;
   return {};
-}
-
-void MujocoMachine::step() {
-  const double time = static_cast<double>(steps_done_) * step_;
-  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
-    AxisForces forces = axes_[axis].step(physics_->motion(axis), time);
-    forces.slide += external_force_[axis];
-    physics_->apply(axis, forces);
-  }
-  physics_->pull_pen(pen_reference_);
-  physics_->step();
-  ++steps_done_;
-}
-
-bool MujocoMachine::advance() noexcept {
-  try {
-    for (int i = 0; i < steps_; ++i) {
-      step();
-    }
-    return true;
-  } catch (const std::exception& error) {
-    const std::string_view text = error.what();
-    fault_text_.fill('\0');
-    std::copy_n(text.begin(), std::min(text.size(), fault_text_.size() - 1), fault_text_.begin());
-    return false;
-  }
 }
 
 Status MujocoMachine::read(Inputs& inputs) noexcept {
@@ -102,11 +63,8 @@ Status MujocoMachine::read(Inputs& inputs) noexcept {
   if (fault_ != Fault::kNone) {
     return Status::kError;
   }
-  if (!advance()) {
-    return stop_with(Fault::kMujoco);
-  }
-  if (physics_->is_unstable()) {
-    return stop_with(Fault::kUnstable);
+  if (!plant_->advance()) {
+    return stop_with(Fault::kPlant);
   }
   fill(inputs);
   return Status::kOk;
@@ -114,13 +72,11 @@ Status MujocoMachine::read(Inputs& inputs) noexcept {
 
 void MujocoMachine::fill(Inputs& inputs) const noexcept {
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
-    const TableAxis& a = axes_[axis];
-    const double position = physics_->motion(axis).position;
-    inputs.counts[axis] = a.encoder().counts(physics_->encoder_position(axis));
-    inputs.servo_ready[axis] = a.drive().is_ready();
-    inputs.alarm[axis] = a.drive().has_alarm();
-    inputs.limit_positive[axis] = a.is_limit_positive(position);
-    inputs.limit_negative[axis] = a.is_limit_negative(position);
+    inputs.counts[axis] = encoders_[axis].counts(plant_->encoder_position(axis));
+    inputs.servo_ready[axis] = plant_->is_ready(axis);
+    inputs.alarm[axis] = plant_->has_alarm(axis);
+    inputs.limit_positive[axis] = plant_->is_limit_positive(axis);
+    inputs.limit_negative[axis] = plant_->is_limit_negative(axis);
   }
 }
 
@@ -137,28 +93,35 @@ Status MujocoMachine::write(const Outputs& outputs) noexcept {
     return stop_with(Fault::kNotANumber);
   }
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
-    axes_[axis].command(outputs.volts[axis], outputs.servo_on[axis]);
+    plant_->command(axis, dacs_[axis].convert(outputs.volts[axis]), outputs.servo_on[axis]);
   }
-  pen_reference_ = outputs.position_reference[2];
+  plant_->set_pen_reference(outputs.position_reference[2]);
   return Status::kOk;
 }
 
 Truth MujocoMachine::truth() const noexcept {
   Truth truth;
-  if (physics_) {
+  if (plant_) {
     for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
-      truth.table_position[axis] = physics_->motion(axis).position - origin_[axis];
+      truth.table_position[axis] = plant_->position(axis) - origin_[axis];
     }
   }
   return truth;
 }
 
 double MujocoMachine::pen_position() const noexcept {
-  return physics_ ? physics_->pen_position() : 0.0;
+  return plant_ ? plant_->pen_position() : 0.0;
 }
 
 double MujocoMachine::velocity(Axis axis) const noexcept {
-  return physics_ ? physics_->motion(axis).velocity : 0.0;
+  return plant_ ? plant_->velocity(axis) : 0.0;
+}
+
+void MujocoMachine::set_external_force(Axis axis, double force) noexcept {
+  external_force_[axis] = force;
+  if (plant_) {
+    plant_->set_external_force(axis, force);
+  }
 }
 
 Status MujocoMachine::stop_with(Fault fault) noexcept {
@@ -168,8 +131,8 @@ Status MujocoMachine::stop_with(Fault fault) noexcept {
 }
 
 void MujocoMachine::deactivate() noexcept {
-  for (TableAxis& axis : axes_) {
-    axis.switch_off();
+  for (std::size_t axis = 0; plant_ && axis < kServoAxes; ++axis) {
+    plant_->command(axis, 0.0, false);
   }
   if (state_ == State::kActive) {
     state_ = State::kInactive;
@@ -178,8 +141,9 @@ void MujocoMachine::deactivate() noexcept {
 
 void MujocoMachine::cleanup() noexcept {
   deactivate();
-  axes_.clear();
-  physics_.reset();
+  dacs_.clear();
+  encoders_.clear();
+  plant_.reset();
   fault_ = Fault::kNone;
   state_ = State::kUnconfigured;
 }
@@ -194,14 +158,8 @@ std::string MujocoMachine::last_error() const {
       return "the table was written to while it was not active";
     case Fault::kNotANumber:
       return "a drive command or the pen's reference is not a finite number";
-    case Fault::kUnstable:
-      return fmt::format(
-          "the simulated table became unstable at {:.4f} s; lower table.physics_step_ms or the "
-          "gains",
-          static_cast<double>(steps_done_) * step_);
-    case Fault::kMujoco:
-      return fmt::format("MuJoCo stopped at {:.4f} s: {}", static_cast<double>(steps_done_) * step_,
-                         fault_text_.data());
+    case Fault::kPlant:
+      return plant_->last_error();
   }
   return {};
 }

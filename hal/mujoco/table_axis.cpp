@@ -15,14 +15,12 @@ constexpr double kStopDamping = 5.0;       // [N s/mm]
 
 TableAxis::TableAxis(const AxisParams& params, double step)
     : travel_(params.travel),
-      dac_(params.dac_bits),
       delay_(params.drive.output_delay / step),
       drive_(params.drive, params.motor, params.total_inertia(), step),
-      friction_(params.friction, step),
-      encoder_(params.encoder) {}
+      friction_(params.friction, step) {}
 
 void TableAxis::command(double volts, bool servo_on) noexcept {
-  volts_ = dac_.convert(volts);
+  volts_ = volts;
   servo_on_ = servo_on;
 }
 
@@ -51,12 +49,6 @@ void TableAxis::reset_drive() noexcept {
   switch_off();
   delay_.clear();
   drive_.reset();
-}
-
-void TableAxis::reset() noexcept {
-  reset_drive();
-  friction_.reset();
-  encoder_.zero(0.0);
 }
 
 }  // namespace twin::hal

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <cstdint>
-
-#include "hal/mujoco/dac.hpp"
 #include "hal/mujoco/delay_line.hpp"
 #include "hal/mujoco/drive.hpp"
-#include "hal/mujoco/encoder.hpp"
 #include "hal/mujoco/lugre.hpp"
 #include "hal/mujoco/table_params.hpp"
 
@@ -24,8 +20,7 @@ struct AxisForces {
   double slide = 0.0;   ///< friction and end stops, along the positive direction [N]
 };
 
-/// One servo axis between its terminals and its slide: converter, drive, friction, switches, end
-/// stops.
+/// One servo axis between its terminals and its slide: drive, friction, switches, end stops.
 ///
 /// MuJoCo moves the masses; everything else of the axis is here, in mm, N and V.
 class TableAxis {
@@ -33,34 +28,41 @@ class TableAxis {
   /// @param step physics step [s]. Allocates.
   TableAxis(const AxisParams& params, double step);
 
-  /// V-REF that holds from now on, before the converter [V], finite. Real-time safe.
+  /// V-REF at the terminals from now on [V], finite. Real-time safe.
   void command(double volts, bool servo_on) noexcept;
   /// One physics step. Real-time safe. @param time since the first step [s]
   AxisForces step(const AxisMotion& motion, double time) noexcept;
-  /// 0 V, nothing stored. Real-time safe.
-  void reset() noexcept;
   /// Servo off. Alarms stay until reset_drive(). Real-time safe.
   void switch_off() noexcept { command(0.0, false); }
   /// Clears an alarm and the states of the drive. Real-time safe.
   void reset_drive() noexcept;
+  /// Makes the drive give alarm. Real-time safe.
+  void trip() noexcept { drive_.trip(); }
+  /// Opens limit switches wherever the slide is, or leaves them to it again. Real-time safe.
+  void force_limits(bool positive, bool negative) noexcept {
+    is_forced_positive_ = positive;
+    is_forced_negative_ = negative;
+  }
 
-  Encoder& encoder() noexcept { return encoder_; }
-  const Encoder& encoder() const noexcept { return encoder_; }
   const Drive& drive() const noexcept { return drive_; }
-  bool is_limit_positive(double position) const noexcept { return position >= travel_; }
-  bool is_limit_negative(double position) const noexcept { return position <= -travel_; }
+  bool is_limit_positive(double position) const noexcept {
+    return is_forced_positive_ || position >= travel_;
+  }
+  bool is_limit_negative(double position) const noexcept {
+    return is_forced_negative_ || position <= -travel_;
+  }
 
  private:
   double end_stop(const AxisMotion& motion) const noexcept;
 
   double travel_;  // limit switches at +-travel_ [mm]
-  Dac dac_;
   DelayLine delay_;
   Drive drive_;
   Lugre friction_;
-  Encoder encoder_;
-  double volts_ = 0.0;  // behind the converter [V]
+  double volts_ = 0.0;  // at the terminals [V]
   bool servo_on_ = false;
+  bool is_forced_positive_ = false;
+  bool is_forced_negative_ = false;
 };
 
 }  // namespace twin::hal

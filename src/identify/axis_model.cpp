@@ -25,7 +25,9 @@ AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis) {
 }
 
 AxisModel::AxisModel(const AxisSetup& setup, double start)
-    : axis_(setup.axis, setup.period / hal::steps_per_period(setup.period, setup.physics_step)),
+    : dac_(setup.axis.dac_bits),
+      axis_(setup.axis, setup.period / hal::steps_per_period(setup.period, setup.physics_step)),
+      encoder_(setup.axis.encoder),
       servo_(setup.servo, mm_per_s_per_volt(setup.axis), setup.period),
       mm_per_count_(setup.axis.encoder.mm_per_count),
       rad_per_mm_(1.0 / setup.axis.mm_per_rad()),
@@ -36,7 +38,6 @@ AxisModel::AxisModel(const AxisSetup& setup, double start)
       position_(start) {
   step_ = setup.period / steps_;
   rate_per_force_ = units::mm_from_m(step_ / (setup.axis.moving_mass + setup.axis.rotor_mass()));
-  axis_.encoder().zero(0.0);
 }
 
 void AxisModel::advance() noexcept {
@@ -58,7 +59,7 @@ void AxisModel::advance() noexcept {
 
 void AxisModel::write(double volts) noexcept {
   if (std::isfinite(volts)) {
-    axis_.command(volts, true);
+    axis_.command(dac_.convert(volts), true);
   }
 }
 
@@ -66,7 +67,7 @@ AxisRow AxisModel::follow(const servo::Reference& reference) noexcept {
   advance();
   AxisRow row;
   row.table = position_;
-  row.encoder = servo::position_from_counts(axis_.encoder().counts(position_), mm_per_count_);
+  row.encoder = servo::position_from_counts(encoder_.counts(position_), mm_per_count_);
   row.volts = servo_.update(reference, row.encoder);
   write(row.volts);
   return row;
@@ -76,7 +77,7 @@ AxisRow AxisModel::drive(double volts) noexcept {
   advance();
   AxisRow row;
   row.table = position_;
-  row.encoder = servo::position_from_counts(axis_.encoder().counts(position_), mm_per_count_);
+  row.encoder = servo::position_from_counts(encoder_.counts(position_), mm_per_count_);
   row.volts = volts;
   write(volts);
   return row;

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
+#include "hal/dac.hpp"
+#include "hal/mujoco/encoder.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "servo/axis_servo.hpp"
 
@@ -34,8 +36,9 @@ struct AxisRow {
 /// One servo axis of the simulated table with its position loop, without MuJoCo.
 ///
 /// The axes of the table with rigid screws are two slides that move each other not at all, so one
-/// axis alone is the whole machine to rounding: converter, delay, drive, friction and encoder are
-/// hal::TableAxis itself, and the mass M = m + J (2 pi / lead)^2 [kg] is integrated as MuJoCo does,
+/// axis alone is the whole machine to rounding: converter, axis (delay, drive, friction) and
+/// encoder are those of the table, and the mass M = m + J (2 pi / lead)^2 [kg] is integrated as
+/// MuJoCo does,
 ///   v' = v + h F / M,   x' = x + h v'.
 /// A period is that of the controller: read (one period of time passes), servo, write.
 ///
@@ -63,7 +66,9 @@ class AxisModel {
   void advance() noexcept;
   void write(double volts) noexcept;
 
+  hal::Dac dac_;
   hal::TableAxis axis_;
+  hal::Encoder encoder_;
   servo::AxisServo servo_;
   double mm_per_count_;
   double rad_per_mm_;        // of the motor [rad/mm]

@@ -1,4 +1,4 @@
-#include "hal/mujoco/dac.hpp"
+#include "hal/dac.hpp"
 
 #include <algorithm>
 #include <cassert>
