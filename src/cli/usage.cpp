@@ -1,6 +1,6 @@
 #include "cli/usage.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
@@ -49,19 +49,26 @@ std::string unknown_option(const CLI::App& command, std::span<const char* const>
   return {};
 }
 
+/// What is wrong with the arguments of a command; empty where that cannot be told. Looks into the
+/// commands below it: `twin rig probe`.
 std::string explain(const CLI::App& app, std::span<const char* const> arguments) {
+  const std::vector<std::string> commands = command_names(app);
+  if (commands.empty()) {
+    return unknown_option(app, arguments);
+  }
   if (arguments.empty()) {
-    return {};
+    return app.get_parent() == nullptr
+               ? std::string()
+               : fmt::format("{} wants a command: {}", app.get_name(), fmt::join(commands, ", "));
   }
   const std::string_view first = arguments[0];
   if (is_option(first)) {
     return unknown_option(app, arguments.first(1));
   }
-  const std::vector<std::string> commands = command_names(app);
   if (std::ranges::find(commands, first) == commands.end()) {
     return fmt::format("unknown command {}{}", first, config::did_you_mean(first, commands));
   }
-  return unknown_option(*app.get_subcommand(std::string(first)), arguments.subspan(1));
+  return explain(*app.get_subcommand(std::string(first)), arguments.subspan(1));
 }
 
 }  // namespace

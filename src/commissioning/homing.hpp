@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "core/error.hpp"
+#include "hal/signals.hpp"
+
+namespace twin::commissioning {
+
+/// Where an axis has its home, section [home.x] of the machine file.
+struct HomeSettings {
+  bool is_positive = false;     ///< home switch is P-OT; else N-OT
+  double seek_feedrate = 10.0;  ///< towards the switch, and to zero afterwards [mm/s]
+  double index_feedrate = 1.0;  ///< off the switch and to the index [mm/s]
+  double zero = 0.0;            ///< from the index to the axis' zero, signed [mm]
+};
+
+/// What ends a move before its way is done.
+enum class Until : std::uint8_t {
+  kNothing,
+  kLimitReached,   ///< the home switch opens
+  kLimitReleased,  ///< it has closed again
+  kIndex,          ///< the encoder's index is met
+};
+
+/// One move of homing.
+struct HomingMove {
+  hal::Axis axis = hal::kX;
+  bool is_positive = false;  ///< the home switch is P-OT
+  double distance = 0.0;     ///< signed; at most so far [mm]
+  double feedrate = 0.0;     ///< [mm/s]
+  Until until = Until::kNothing;
+};
+
+/// How a move ended. Positions are those of the encoder, from where the move began [mm].
+struct HomingStop {
+  double position = 0.0;         ///< at rest, at its end
+  std::optional<double> met_at;  ///< where the thing was met; empty where it was not
+};
+
+/// Makes one move from rest to rest.
+using MakeMove = std::function<Expected<HomingStop>(const HomingMove&)>;
+
+/// Homes an axis by limit switch and index:
+///
+///   1. towards the switch until it opens,
+///   2. slowly away from it until it closes,
+///   3. on in the same sense to the first index,
+///   4. to where the index was met, and from there by `zero`.
+///
+/// The axis then stands at its zero, within the way of one period at index_feedrate and a count.
+/// @param length  the axis' whole travel: the farthest way to the switch [mm]
+/// @param lead    the farthest way from index to index [mm]
+Expected<void> home_axis(hal::Axis axis, const HomeSettings& settings, double length, double lead,
+                         const MakeMove& move);
+
+}  // namespace twin::commissioning
