@@ -61,6 +61,9 @@ std::vector<Binding> bindings(MachineFile& machine);
 /// The part of bindings() that is about the simulated table.
 std::vector<Binding> table_bindings(hal::TableParams& table);
 
+/// The part of bindings() that is about monitors and wall clock: [safety], [realtime].
+std::vector<Binding> safety_bindings(MachineFile& machine);
+
 /// Gives the field a value; the error has the key, the value, its unit and the range.
 Expected<void> assign(const Binding& binding, const Value& value);
 

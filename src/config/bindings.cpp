@@ -88,6 +88,9 @@ std::vector<Binding> bindings(MachineFile& machine) {
   add_interpolator(list, machine.interpolation, machine.path.curves, machine.period);
   add_servo(list, "servo.x", machine.servo[hal::kX]);
   add_servo(list, "servo.y", machine.servo[hal::kY]);
+  for (Binding& binding : safety_bindings(machine)) {
+    list.push_back(std::move(binding));
+  }
   for (Binding& binding : table_bindings(machine.table)) {
     list.push_back(std::move(binding));
   }

@@ -13,6 +13,8 @@
 #include "hal/mujoco/table_params.hpp"
 #include "hal/signals.hpp"
 #include "interpolator/settings.hpp"
+#include "runtime/realtime_settings.hpp"
+#include "safety/settings.hpp"
 #include "servo/gains.hpp"
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
@@ -28,6 +30,8 @@ struct MachineFile {
   double period = 0.001;  ///< interpolation period T [s]
   interpolator::Settings interpolation;
   std::array<servo::Gains, hal::kServoAxes> servo;
+  safety::Settings safety;
+  runtime::RealtimeSettings realtime;
   hal::TableParams table;  ///< table.model is absolute once read
 };
 

@@ -13,6 +13,10 @@ void LogHistogram::add(double x) noexcept {
   max_ = std::max(max_, x);
 }
 
+double LogHistogram::lower_end(std::size_t k) noexcept {
+  return kLowest * std::exp2(static_cast<double>(k) / kPerOctave);
+}
+
 double LogHistogram::quantile(double fraction) const noexcept {
   if (count_ == 0) {
     return 0.0;
@@ -22,8 +26,7 @@ double LogHistogram::quantile(double fraction) const noexcept {
   for (std::size_t k = 0; k < kBins; ++k) {
     seen += bins_[k];
     if (bins_[k] > 0 && seen >= wanted) {
-      const double upper_end = kLowest * std::exp2(static_cast<double>(k + 1) / kPerOctave);
-      return std::min(upper_end, max_);
+      return std::min(lower_end(k + 1), max_);
     }
   }
   return max_;

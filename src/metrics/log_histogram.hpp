@@ -21,6 +21,10 @@ class LogHistogram {
 
   std::int64_t count() const noexcept { return count_; }
   double max() const noexcept { return max_; }
+  /// How many numbers are in a bin. @param k  0 to kBins - 1
+  std::uint32_t count_in(std::size_t k) const noexcept { return bins_[k]; }
+  /// Lower end of a bin. @param k  0 to kBins
+  static double lower_end(std::size_t k) noexcept;
 
   /// Number that the given fraction of all numbers does not exceed, to within one bin; never above
   /// max().

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/limits.hpp"
 #include "metrics/limit_audit.hpp"
@@ -27,6 +28,24 @@ struct CycleTimes {
   double p50 = 0.0;  ///< [s]
   double p99 = 0.0;  ///< [s]
   double max = 0.0;  ///< [s]
+};
+
+/// Distribution of a time.
+struct TimeFigures {
+  double p50 = 0.0;   ///< [s]
+  double p99 = 0.0;   ///< [s]
+  double p999 = 0.0;  ///< [s]
+  double max = 0.0;   ///< [s]
+};
+
+/// How a run kept to the wall clock.
+struct RealTimeFigures {
+  TimeFigures wake_up;             ///< begin of a period after its deadline
+  TimeFigures compute;             ///< interpolator, servo and monitors
+  TimeFigures total;               ///< from the deadline to the written outputs
+  std::int64_t late_periods = 0;   ///< begun at the next deadline or later
+  double worst_latency = 0.0;      ///< of all periods, those at rest included [s]
+  std::vector<std::string> notes;  ///< what the system did not grant
 };
 
 /// The NC blocks of a program.
@@ -53,7 +72,8 @@ struct MachineFigures {
   ErrorFigures table_contour_error;            ///< true position against programmed path
   std::array<ErrorFigures, 2> tracking_error;  ///< x, y: set point less encoder
   CycleTimes cycle_time;
-  double real_time_factor = 0.0;  ///< machining time over wall-clock time [-]
+  double real_time_factor = 0.0;            ///< machining time over wall-clock time [-]
+  std::optional<RealTimeFigures> realtime;  ///< on the wall clock only; else its key is left out
 };
 
 /// All results of a run, as summary.json holds them.

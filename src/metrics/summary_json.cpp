@@ -56,6 +56,22 @@ Json cycle_time_us(const CycleTimes& times) {
           {"max", rounded(times.max * 1e6)}};
 }
 
+Json time_us(const TimeFigures& times) {
+  return {{"p50", rounded(times.p50 * 1e6)},
+          {"p99", rounded(times.p99 * 1e6)},
+          {"p99.9", rounded(times.p999 * 1e6)},
+          {"max", rounded(times.max * 1e6)}};
+}
+
+Json realtime_of(const RealTimeFigures& realtime) {
+  return {{"wake_up_us", time_us(realtime.wake_up)},
+          {"compute_us", time_us(realtime.compute)},
+          {"total_us", time_us(realtime.total)},
+          {"late_periods", realtime.late_periods},
+          {"worst_latency_us", rounded(realtime.worst_latency * 1e6)},
+          {"notes", realtime.notes}};
+}
+
 }  // namespace
 
 std::string to_json(const Summary& summary) {
@@ -87,6 +103,9 @@ std::string to_json(const Summary& summary) {
   if (summary.run) {
     json["cycle_time_us"] = cycle_time_us(summary.run->cycle_time);
     json["real_time_factor"] = rounded(summary.run->real_time_factor);
+    if (summary.run->realtime) {
+      json["realtime"] = realtime_of(*summary.run->realtime);
+    }
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

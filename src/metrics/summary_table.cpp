@@ -67,6 +67,26 @@ void add_path(Table& table, const Summary& s) {
   }
 }
 
+void add_realtime(Table& table, const RealTimeFigures& r) {
+  const auto times = [&](std::string_view name, const TimeFigures& t) {
+    table.line(name, fmt::format("{:>12.1f}{:>12.1f}{:>12.1f}{:>12.1f}  us", t.p50 * 1e6,
+                                 t.p99 * 1e6, t.p999 * 1e6, t.max * 1e6));
+  };
+  table.line("wall clock",
+             fmt::format("{:>12}{:>12}{:>12}{:>12}", "median", "p99", "p99.9", "max"));
+  times("wake-up after deadline", r.wake_up);
+  times("computation", r.compute);
+  times("deadline to output", r.total);
+  table.line("late periods",
+             r.late_periods == 0
+                 ? fmt::format("none, worst {:.1f} us after its deadline", r.worst_latency * 1e6)
+                 : fmt::format("{}, worst {:.1f} us after its deadline", r.late_periods,
+                               r.worst_latency * 1e6));
+  for (const std::string& note : r.notes) {
+    table.line("note", note);
+  }
+}
+
 void add_errors(Table& table, const Summary& s) {
   table.columns("", "max", "rms", "");
   table.error_um("contour error, command", s.command_contour_error);
@@ -97,6 +117,10 @@ std::string to_table(const Summary& summary, const Limits& limits) {
   table.gap();
   add_path(table, summary);
   table.gap();
+  if (summary.run && summary.run->realtime) {
+    add_realtime(table, *summary.run->realtime);
+    table.gap();
+  }
   add_errors(table, summary);
   table.gap();
   add_peaks(table, summary, limits);

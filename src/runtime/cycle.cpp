@@ -1,5 +1,6 @@
 #include "runtime/cycle.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "servo/axis_scaling.hpp"
@@ -21,13 +22,22 @@ servo::AxisServo make_servo(const hal::Machine* machine, std::size_t axis,
 }  // namespace
 
 Cycle::Cycle(interpolator::Interpolator& interpolator, hal::Machine* machine,
-             const std::array<servo::Gains, hal::kServoAxes>& gains, double period)
+             const std::array<servo::Gains, hal::kServoAxes>& gains, double period,
+             const safety::Settings& safety, double feedrate)
     : interpolator_(interpolator),
       machine_(machine),
       period_(period),
       servos_{make_servo(machine, hal::kX, gains, period),
               make_servo(machine, hal::kY, gains, period)} {
   outputs_.servo_on = {true, true};
+  if (machine != nullptr && !machine->info().follows_reference) {
+    monitors_.emplace(machine->info(), period, feedrate, safety);
+  }
+}
+
+hal::Status Cycle::read(double interval) noexcept {
+  interval_ = interval;
+  return machine_ == nullptr ? hal::Status::kOk : machine_->read(inputs_);
 }
 
 interpolator::Status Cycle::prepare() noexcept {
@@ -37,50 +47,111 @@ interpolator::Status Cycle::prepare() noexcept {
   return status;
 }
 
-hal::Status Cycle::hold() noexcept {
+/// Counts to drive commands.
+void Cycle::close_loops() noexcept {
+  const hal::MachineInfo& info = machine_->info();
+  for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    measured_[k] = servo::position_from_counts(inputs_.counts[i], info.mm_per_count[i]);
+    outputs_.volts[i] = servos_[i].update(
+        {set_point_.position[k], set_point_.velocity[k], set_point_.acceleration[k]}, measured_[k]);
+  }
+  outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
+                                 set_point_.position.z()};
+  table_ = measured_;
+}
+
+/// Lets the monitors look; false when the outputs must be made safe.
+bool Cycle::is_safe() noexcept {
+  if (!monitors_) {
+    return true;
+  }
+  std::array<safety::AxisView, hal::kServoAxes> views;
+  const double feedrate = set_point_.velocity.norm();
+  for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    views[i] = {interval_,
+                set_point_.position[k],
+                set_point_.velocity[k],
+                feedrate,
+                measured_[k],
+                inputs_.counts[i],
+                outputs_.volts[i],
+                servos_[i].is_saturated(),
+                inputs_.servo_ready[i],
+                inputs_.alarm[i],
+                inputs_.limit_positive[i],
+                inputs_.limit_negative[i]};
+  }
+  const auto found = monitors_->check(views);
+  if (!found) {
+    return true;
+  }
+  const bool is_immediate = found->reaction == safety::Reaction::kImmediate;
+  if (!trip_ || is_immediate) {
+    trip_ = stamped(*found);
+  }
+  return !is_immediate;
+}
+
+bool Cycle::write() noexcept {
+  const hal::MachineInfo& info = machine_->info();
+  const auto take_truth = [&] {
+    const hal::Truth truth = machine_->truth();
+    table_ = {truth.table_position[0], truth.table_position[1]};
+  };
+  if (info.has_truth && !info.follows_reference) {
+    take_truth();
+  }
+  if (machine_->write(outputs_) != hal::Status::kOk) {
+    return false;
+  }
+  if (info.follows_reference) {
+    take_truth();
+    measured_ = table_;
+  }
+  return true;
+}
+
+hal::Status Cycle::respond(trace::Sample& sample) noexcept {
+  bool is_fine = true;
+  if (machine_ != nullptr) {
+    const auto start = WallClock::now();
+    close_loops();
+    is_fine = is_safe();
+    if (!is_fine) {
+      outputs_.volts.fill(0.0);
+      outputs_.servo_on.fill(false);
+    }
+    servo_time_ = seconds_since(start);
+    is_fine = write() && is_fine;
+  }
+  fill(sample);
+  ++periods_;
+  return is_fine ? hal::Status::kOk : hal::Status::kError;
+}
+
+hal::Status Cycle::respond_at_rest() noexcept {
   set_point_.velocity.setZero();
   set_point_.acceleration.setZero();
   trace::Sample unused;
   const std::int64_t periods = periods_;
-  const hal::Status status = exchange(unused);
+  prepare_time_ = 0.0;
+  const hal::Status status = respond(unused);
   periods_ = periods;
   return status;
 }
 
 hal::Status Cycle::exchange(trace::Sample& sample) noexcept {
-  if (machine_ != nullptr) {
-    if (machine_->read(inputs_) != hal::Status::kOk) {
-      return hal::Status::kError;
-    }
-    const auto start = WallClock::now();
-    const hal::MachineInfo& info = machine_->info();
-    for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      measured_[k] = servo::position_from_counts(inputs_.counts[i], info.mm_per_count[i]);
-      outputs_.volts[i] = servos_[i].update(
-          {set_point_.position[k], set_point_.velocity[k], set_point_.acceleration[k]},
-          measured_[k]);
-    }
-    outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
-                                   set_point_.position.z()};
-    servo_time_ = seconds_since(start);
-    table_ = measured_;
-    const auto take_truth = [&] {
-      const hal::Truth truth = machine_->truth();
-      table_ = {truth.table_position[0], truth.table_position[1]};
-    };
-    if (info.has_truth && !info.follows_reference) {
-      take_truth();
-    }
-    if (machine_->write(outputs_) != hal::Status::kOk) {
-      return hal::Status::kError;
-    }
-    if (info.follows_reference) {
-      take_truth();
-      measured_ = table_;
-    }
-  }
-  sample.t = static_cast<double>(periods_++) * period_;
+  return read(period_) == hal::Status::kOk ? respond(sample) : hal::Status::kError;
+}
+
+hal::Status Cycle::hold() noexcept {
+  return read(period_) == hal::Status::kOk ? respond_at_rest() : hal::Status::kError;
+}
+
+void Cycle::fill(trace::Sample& sample) const noexcept {
+  sample.t = static_cast<double>(periods_) * period_;
   sample.segment = set_point_.segment;
   sample.block = set_point_.block;
   sample.line = set_point_.line;
@@ -91,7 +162,23 @@ hal::Status Cycle::exchange(trace::Sample& sample) noexcept {
   sample.table = table_;
   sample.volts = {outputs_.volts[0], outputs_.volts[1]};
   sample.cycle_time = prepare_time_ + servo_time_;
-  return hal::Status::kOk;
+}
+
+std::size_t Cycle::axis_not_ready() const noexcept {
+  const auto& ready = inputs_.servo_ready;
+  return static_cast<std::size_t>(std::find(ready.begin(), ready.end(), false) - ready.begin());
+}
+
+safety::Trip Cycle::stamped(safety::Trip trip) const noexcept {
+  trip.time = static_cast<double>(periods_) * period_;
+  trip.line = set_point_.line;
+  return trip;
+}
+
+void Cycle::switch_off() noexcept {
+  if (machine_ != nullptr) {
+    machine_->deactivate();
+  }
 }
 
 }  // namespace twin::runtime

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "hal/machine.hpp"
 #include "interpolator/interpolator.hpp"
+#include "safety/monitors.hpp"
 #include "servo/axis_servo.hpp"
 #include "servo/gains.hpp"
 #include "trace/sample.hpp"
@@ -14,38 +16,72 @@ namespace twin::runtime {
 /// One interpolation period of the controller: the next set point, and its exchange with the
 /// machine.
 ///
-///   prepare()    interpolator -> set point of the coming period
-///   exchange()   machine.read -> servo -> machine.write
+///   read()       machine.read: counts and switches of this instant
+///   prepare()    interpolator -> set point of the period
+///   respond()    servo -> monitors -> machine.write
 ///
-/// The set point does not depend on what is measured, so it is prepared first; a period in which
-/// none is there yet need not let time pass on a simulated machine. Nothing in either call
-/// allocates, locks, throws, prints or touches a file.
+/// On the wall clock in this order, so that the counts are those of the period's begin. Off it
+/// prepare() comes first and exchange() does the rest: a period in which no set point is there yet
+/// need not let time pass on a simulated machine. The results are the same, because the set point
+/// does not depend on what is measured. Nothing in any call allocates, locks, throws, prints or
+/// touches a file.
+///
+/// The monitors watch every machine but one that follows its reference. What they find is in
+/// trip(); where it calls for an immediate reaction, 0 V and servo off are written in the same
+/// period, the call returns kError, and nothing is written after it.
 class Cycle {
  public:
-  /// @param machine  configured and active; null for a plan without a machine
-  /// @param period   interpolation period T [s]
+  /// @param machine   configured and active; null for a plan without a machine
+  /// @param period    interpolation period T [s]
+  /// @param feedrate  largest feedrate of the machine [mm/s]
   Cycle(interpolator::Interpolator& interpolator, hal::Machine* machine,
-        const std::array<servo::Gains, hal::kServoAxes>& gains, double period);
+        const std::array<servo::Gains, hal::kServoAxes>& gains, double period,
+        const safety::Settings& safety = {}, double feedrate = Limits{}.feedrate);
 
+  /// Fetches the inputs. Real-time safe. @param interval since the last read [s]
+  hal::Status read(double interval) noexcept;
   /// Fetches the next set point; on anything but kMoving the last one stands. Real-time safe.
   interpolator::Status prepare() noexcept;
-  /// Follows the set point for one period. Real-time safe.
+  /// Answers the inputs with the drive commands of the set point. Real-time safe.
+  hal::Status respond(trace::Sample& sample) noexcept;
+  /// The same for the last set point, at rest. Real-time safe.
+  hal::Status respond_at_rest() noexcept;
+
+  /// read() and respond(). Real-time safe.
   hal::Status exchange(trace::Sample& sample) noexcept;
-  /// Follows the last set point, at rest, for one period. Real-time safe.
+  /// read() and respond_at_rest(). Real-time safe.
   hal::Status hold() noexcept;
 
+  bool has_machine() const noexcept { return machine_ != nullptr; }
+  /// Servo ready of both axes at the last read().
+  bool is_ready() const noexcept { return axis_not_ready() == safety::kNoAxis; }
+  /// The first axis without servo ready at the last read(), or kNoAxis.
+  std::size_t axis_not_ready() const noexcept;
+  /// What the monitors have found first.
+  const std::optional<safety::Trip>& trip() const noexcept { return trip_; }
+  /// A trip as of this period, about the whole machine or one axis. Real-time safe.
+  safety::Trip stamped(safety::Trip trip) const noexcept;
+  /// 0 V and servo off. Not real-time safe.
+  void switch_off() noexcept;
+
  private:
-  void set_reference(bool at_rest) noexcept;
+  void close_loops() noexcept;
+  bool is_safe() noexcept;
+  bool write() noexcept;
+  void fill(trace::Sample& sample) const noexcept;
 
   interpolator::Interpolator& interpolator_;
   hal::Machine* machine_;
   double period_;
   std::array<servo::AxisServo, hal::kServoAxes> servos_;
+  std::optional<safety::Monitors> monitors_;
+  std::optional<safety::Trip> trip_;
   hal::Inputs inputs_{};
   hal::Outputs outputs_{};
   interpolator::SetPoint set_point_{};
   Vec2 measured_ = Vec2::Zero();
   Vec2 table_ = Vec2::Zero();
+  double interval_ = 0.0;      // [s]
   double prepare_time_ = 0.0;  // [s]
   double servo_time_ = 0.0;    // [s]
   std::int64_t periods_ = 0;

@@ -1,5 +1,6 @@
 #include "runtime/motion.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -11,11 +12,23 @@ namespace {
 
 void nap() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
 
+/// Leaves the machine with 0 V and servo off, also when a hook throws.
+class OffAtTheEnd {
+ public:
+  explicit OffAtTheEnd(Cycle& cycle) : cycle_(cycle) {}
+  OffAtTheEnd(const OffAtTheEnd&) = delete;
+  OffAtTheEnd& operator=(const OffAtTheEnd&) = delete;
+  ~OffAtTheEnd() { cycle_.switch_off(); }
+
+ private:
+  Cycle& cycle_;
+};
+
 /// State of one run of the motion thread.
 class Motion {
  public:
   Motion(Cycle& cycle, interpolator::Interpolator& interpolator, SegmentQueue& segments,
-         SampleQueue& samples, const Limits& limits, const Pace& pace, bool has_machine,
+         SampleQueue& samples, const Limits& limits, const Pace& pace,
          const std::atomic<bool>& stop)
       : cycle_(cycle),
         interpolator_(interpolator),
@@ -24,17 +37,24 @@ class Motion {
         ramp_{limits.acceleration, limits.jerk},
         limits_(limits),
         pace_(pace),
-        has_machine_(has_machine),
         stop_(stop),
-        pacer_(pace.period) {}
+        pacer_(pace.clock != nullptr ? *pace.clock : monotonic_, pace.period, pace.realtime) {}
 
-  MotionEnd run();
+  MotionResult run();
 
  private:
-  bool settle();
+  MotionEnd move();
+  std::optional<MotionEnd> settle();
+  std::optional<MotionEnd> follow_path();
+  bool begin_period();
+  bool rest_one_period();
+  bool exchange(trace::Sample& sample);
   void guard_supply();
-  bool record(const trace::Sample& sample);
+  void record(const trace::Sample& sample);
   bool wait_on_path();
+  void trip(safety::Trip trip);
+  MotionEnd failed() const;
+  MotionEnd at_rest() const;
 
   Cycle& cycle_;
   interpolator::Interpolator& interpolator_;
@@ -42,29 +62,103 @@ class Motion {
   SampleQueue& samples_;
   feedrate::RampLimits ramp_;
   Limits limits_;
-  Pace pace_;
-  bool has_machine_;
+  const Pace& pace_;
   const std::atomic<bool>& stop_;
+  MonotonicClock monotonic_;
   Pacer pacer_;
+  WakeUp wake_up_{};
+  std::int64_t periods_ = 0;  // begun on the wall clock
+  std::optional<safety::Trip> trip_;
+  bool is_recording_ = true;
 };
 
-/// Lets the loop settle at rest before the path begins.
-bool Motion::settle() {
-  const auto periods = has_machine_ ? std::lround(pace_.settle_time / pace_.period) : 0;
-  for (long i = 0; i < periods; ++i) {
-    if (cycle_.hold() != hal::Status::kOk) {
-      return false;
-    }
-    if (pace_.is_wall_clock) {
-      pacer_.wait();
-    }
+/// Wall clock: sleeps until the period begins and reads the machine at once.
+bool Motion::begin_period() {
+  wake_up_ = pacer_.wait();
+  if (pace_.before_period) {
+    pace_.before_period(periods_);
   }
-  return true;
+  ++periods_;
+  if (const auto overrun = pacer_.overrun()) {
+    trip(cycle_.stamped(*overrun));
+  }
+  return cycle_.read(wake_up_.interval) == hal::Status::kOk;
 }
 
-/// On the wall clock: brakes while the known path still suffices for it, or when asked to stop.
+/// The first trip is what is reported, but for one that the machine is switched off by.
+void Motion::trip(safety::Trip trip) {
+  if (!trip_ || (trip_->reaction == safety::Reaction::kControlled &&
+                 trip.reaction == safety::Reaction::kImmediate)) {
+    trip_ = trip;
+  }
+}
+
+/// One period at rest. @returns false if the machine failed or was switched off
+bool Motion::rest_one_period() {
+  const bool is_fine = pace_.is_wall_clock
+                           ? begin_period() && cycle_.respond_at_rest() == hal::Status::kOk
+                           : cycle_.hold() == hal::Status::kOk;
+  if (cycle_.trip()) {
+    trip(*cycle_.trip());
+  }
+  return is_fine;
+}
+
+/// The period of a set point; on the wall clock it has begun already.
+bool Motion::exchange(trace::Sample& sample) {
+  const hal::Status status = pace_.is_wall_clock ? cycle_.respond(sample) : cycle_.exchange(sample);
+  if (cycle_.trip()) {
+    trip(*cycle_.trip());
+  }
+  if (pace_.is_wall_clock) {
+    sample.wake_up_latency = wake_up_.latency;
+    sample.total_time = pacer_.since_deadline();
+  }
+  return status == hal::Status::kOk;
+}
+
+MotionEnd Motion::failed() const {
+  return trip_ && trip_->reaction == safety::Reaction::kImmediate ? MotionEnd::kTripped
+                                                                  : MotionEnd::kMachineError;
+}
+
+MotionEnd Motion::at_rest() const { return trip_ ? MotionEnd::kTripped : MotionEnd::kInterrupted; }
+
+/// Lets the loop settle at rest before the path begins, and waits until the drives are ready.
+std::optional<MotionEnd> Motion::settle() {
+  if (!cycle_.has_machine()) {
+    return std::nullopt;
+  }
+  const auto in_periods = [&](double time) { return std::lround(time / pace_.period); };
+  const long least = in_periods(pace_.settle_time);
+  const long timeout = std::max(1L, in_periods(pace_.ready_timeout));
+  long last = least;
+  bool is_ready = false;
+  for (long i = 0; i < last || !is_ready; ++i) {
+    if (!is_ready && i >= timeout) {
+      safety::Trip late{safety::Kind::kNotReady, cycle_.axis_not_ready()};
+      late.value = static_cast<double>(i) * pace_.period;
+      late.limit = pace_.ready_timeout;
+      trip(cycle_.stamped(late));
+      return MotionEnd::kTripped;
+    }
+    if (!rest_one_period()) {
+      return failed();
+    }
+    if (trip_ || (i >= least && stop_.load(std::memory_order_relaxed))) {
+      return at_rest();
+    }
+    if (!is_ready && cycle_.is_ready()) {
+      is_ready = true;
+      last = i < least ? least : i + least;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Brakes when asked to stop; on the wall clock also while the known path still suffices for it.
 void Motion::guard_supply() {
-  if (stop_.load(std::memory_order_relaxed)) {
+  if (trip_ || stop_.load(std::memory_order_relaxed)) {
     interpolator_.brake(ramp_);
     return;
   }
@@ -78,70 +172,86 @@ void Motion::guard_supply() {
   }
 }
 
-bool Motion::record(const trace::Sample& sample) {
-  while (!samples_.push(sample)) {
-    if (pace_.is_wall_clock) {
-      return false;
+/// Off the wall clock waits for room; on it a full queue ends recording and motion.
+void Motion::record(const trace::Sample& sample) {
+  while (is_recording_ && !samples_.push(sample)) {
+    if (!pace_.is_wall_clock) {
+      nap();
+      continue;
     }
-    nap();
+    is_recording_ = false;
+    trip(cycle_.stamped({safety::Kind::kSamplesLost, safety::kNoAxis, 0.0, 0.0, 0.0, 0,
+                         safety::reaction_to(safety::Kind::kSamplesLost)}));
   }
-  return true;
 }
 
-/// One period (wall clock) or one nap without a set point of the path.
+/// A period without a set point of the path: at rest on the wall clock, where it has begun; a nap
+/// off it.
 bool Motion::wait_on_path() {
   if (!pace_.is_wall_clock) {
     nap();
     return true;
   }
-  const bool is_fine = !has_machine_ || cycle_.hold() == hal::Status::kOk;
-  pacer_.wait();
+  const bool is_fine = cycle_.respond_at_rest() == hal::Status::kOk;
+  if (cycle_.trip()) {
+    trip(*cycle_.trip());
+  }
   return is_fine;
 }
 
-MotionEnd Motion::run() {
-  if (!settle()) {
+/// One turn of the loop; the end of the motion, or nothing.
+std::optional<MotionEnd> Motion::follow_path() {
+  if (pace_.is_wall_clock && !begin_period()) {
     return MotionEnd::kMachineError;
   }
-  trace::Sample sample;
-  for (;;) {
-    guard_supply();
-    const interpolator::Status status = cycle_.prepare();
-    if (status == interpolator::Status::kDone) {
-      return stop_.load() ? MotionEnd::kInterrupted : MotionEnd::kDone;
+  guard_supply();
+  const interpolator::Status status = cycle_.prepare();
+  if (status == interpolator::Status::kDone) {
+    return trip_ || stop_.load() ? at_rest() : MotionEnd::kDone;
+  }
+  if (status == interpolator::Status::kMoving) {
+    trace::Sample sample;
+    const bool is_fine = exchange(sample);
+    if (is_fine || failed() == MotionEnd::kTripped) {
+      record(sample);
     }
-    if (status == interpolator::Status::kMoving) {
-      if (cycle_.exchange(sample) != hal::Status::kOk) {
-        return MotionEnd::kMachineError;
-      }
-      if (!record(sample)) {
-        return MotionEnd::kOverrun;
-      }
-      if (pace_.is_wall_clock) {
-        pacer_.wait();
-      }
-      continue;
+    return is_fine ? std::nullopt : std::optional(failed());
+  }
+  if (status == interpolator::Status::kAtRest) {
+    if (trip_ || stop_.load()) {
+      return at_rest();
     }
-    if (status == interpolator::Status::kAtRest) {
-      if (stop_.load()) {
-        return MotionEnd::kInterrupted;
-      }
-      if (segments_.is_primed()) {
-        interpolator_.resume();
-      }
-    }
-    if (!wait_on_path()) {
-      return MotionEnd::kMachineError;
+    if (segments_.is_primed()) {
+      interpolator_.resume();
     }
   }
+  return wait_on_path() ? std::nullopt : std::optional(failed());
+}
+
+MotionEnd Motion::move() {
+  auto end = settle();
+  while (!end) {
+    end = follow_path();
+  }
+  return *end;
+}
+
+MotionResult Motion::run() {
+  const OffAtTheEnd off(cycle_);
+  MotionResult result;
+  result.end = move();
+  result.trip = trip_;
+  result.late_periods = pacer_.late_periods();
+  result.worst_latency = pacer_.worst_latency();
+  return result;
 }
 
 }  // namespace
 
-MotionEnd run_motion(Cycle& cycle, interpolator::Interpolator& interpolator, SegmentQueue& segments,
-                     SampleQueue& samples, const Limits& limits, const Pace& pace, bool has_machine,
-                     const std::atomic<bool>& stop) {
-  return Motion(cycle, interpolator, segments, samples, limits, pace, has_machine, stop).run();
+MotionResult run_motion(Cycle& cycle, interpolator::Interpolator& interpolator,
+                        SegmentQueue& segments, SampleQueue& samples, const Limits& limits,
+                        const Pace& pace, const std::atomic<bool>& stop) {
+  return Motion(cycle, interpolator, segments, samples, limits, pace, stop).run();
 }
 
 }  // namespace twin::runtime

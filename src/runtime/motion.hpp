@@ -3,11 +3,16 @@
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "core/limits.hpp"
 #include "hal/machine.hpp"
+#include "runtime/clock.hpp"
 #include "runtime/cycle.hpp"
+#include "runtime/realtime_settings.hpp"
 #include "runtime/segment_queue.hpp"
+#include "safety/trip.hpp"
 #include "trace/sample.hpp"
 
 namespace twin::runtime {
@@ -20,27 +25,42 @@ enum class MotionEnd : std::uint8_t {
   kDone,          ///< the whole path
   kInterrupted,   ///< braked to rest because stop was asked for
   kMachineError,  ///< the machine is no longer under control
-  kOverrun,       ///< samples could not be recorded as fast as they came (wall clock only)
+  kTripped,       ///< a monitor ended it
+};
+
+/// What is known of a motion after its end.
+struct MotionResult {
+  MotionEnd end = MotionEnd::kDone;
+  std::optional<safety::Trip> trip;  ///< what ended it, with kTripped
+  std::int64_t late_periods = 0;     ///< wall clock only
+  double worst_latency = 0.0;        ///< of a period's begin [s]; wall clock only
 };
 
 /// How the motion thread keeps time.
 struct Pace {
   bool is_wall_clock =
       false;  ///< one period of the cycle per period of the wall clock; else as fast as it goes
-  double period = 0.001;     ///< [s]
-  double settle_time = 0.3;  ///< held at rest before the first set point, with a machine [s]
+  double period = 0.001;       ///< [s]
+  double settle_time = 0.3;    ///< held at rest before the first set point, with a machine [s]
+  double ready_timeout = 3.0;  ///< within which the drives must be ready [s]
+  RealtimeSettings realtime;   ///< when a period is too late
+  Clock* clock = nullptr;      ///< null: CLOCK_MONOTONIC
+  std::function<void(std::int64_t)> before_period;  ///< see Hooks
 };
 
-/// Runs cycles from rest to rest; the body of the motion thread.
+/// Runs cycles from rest to rest; the body of the motion thread. At its end the machine is off, 0 V
+/// and servo off, whatever the reason.
+///
+/// The path begins after settle_time at rest, and not before both drives are ready.
 ///
 /// Off the wall clock it waits for segments and for room in the sample queue, so the result does
 /// not depend on threads' timing. On the wall clock it waits for nothing: a planner that falls
 /// behind makes it brake on the path before the known part ends, and go on when the buffer has
-/// filled again.
+/// filled again. Late periods and a full sample queue make it brake on the path and end.
 ///
 /// @param stop  set from outside (Ctrl-C): brake on the path and end
-MotionEnd run_motion(Cycle& cycle, interpolator::Interpolator& interpolator, SegmentQueue& segments,
-                     SampleQueue& samples, const Limits& limits, const Pace& pace, bool has_machine,
-                     const std::atomic<bool>& stop);
+MotionResult run_motion(Cycle& cycle, interpolator::Interpolator& interpolator,
+                        SegmentQueue& segments, SampleQueue& samples, const Limits& limits,
+                        const Pace& pace, const std::atomic<bool>& stop);
 
 }  // namespace twin::runtime

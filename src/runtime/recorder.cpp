@@ -1,7 +1,11 @@
 #include "runtime/recorder.hpp"
 
 #include <cmath>
+#include <system_error>
 #include <utility>
+
+#include "core/atomic_file.hpp"
+#include "trace/columns.hpp"
 
 namespace twin::runtime {
 
@@ -74,6 +78,9 @@ Expected<void> Recorder::take(const trace::Sample& sample) {
           std::abs(sample.command[i] - sample.encoder[i]));
     }
     cycle_time_.add(sample.cycle_time);
+    if (options_.is_wall_clock) {
+      timing_.add(sample);
+    }
   }
   ++samples_;
   last_ = sample;
@@ -99,10 +106,22 @@ void Recorder::summarise(metrics::Summary& summary) {
   run.table_contour_error = figures(table_error_);
   run.tracking_error = {figures(tracking_error_[0]), figures(tracking_error_[1])};
   run.cycle_time = {cycle_time_.quantile(0.5), cycle_time_.quantile(0.99), cycle_time_.max()};
+  if (options_.is_wall_clock) {
+    run.realtime = timing_.figures();
+  }
   summary.run = run;
 }
 
 Expected<void> Recorder::commit() {
+  const auto timing = options_.directory / "plots" / trace::kTimingName;
+  if (options_.has_machine && options_.is_wall_clock) {
+    if (auto written = write_whole_file(timing, timing_.to_csv()); !written) {
+      return written;
+    }
+  } else {
+    std::error_code ignored;
+    std::filesystem::remove(timing, ignored);  // of an earlier run
+  }
   if (auto done = limit_.commit(); !done) {
     return done;
   }

@@ -15,6 +15,7 @@
 #include "metrics/log_histogram.hpp"
 #include "metrics/running.hpp"
 #include "metrics/summary.hpp"
+#include "runtime/cycle_timing.hpp"
 #include "trace/csv_writer.hpp"
 #include "trace/limit_writer.hpp"
 
@@ -31,8 +32,9 @@ class Recorder {
     std::filesystem::path program;
     gcode::ReaderOptions reader;
     Limits limits;
-    double period = 0.001;    ///< [s]
-    bool has_machine = true;  ///< else only set points are recorded
+    double period = 0.001;       ///< [s]
+    bool has_machine = true;     ///< else only set points are recorded
+    bool is_wall_clock = false;  ///< samples have the wall clock's figures
   };
 
   static Expected<Recorder> create(const Options& options);
@@ -70,6 +72,7 @@ class Recorder {
   metrics::Running table_error_;
   std::array<metrics::Running, 2> tracking_error_;
   metrics::LogHistogram cycle_time_;
+  CycleTiming timing_;
   std::int64_t samples_ = 0;
   trace::Sample last_{};
 };

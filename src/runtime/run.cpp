@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <exception>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -10,7 +11,9 @@
 #include "runtime/motion.hpp"
 #include "runtime/planning.hpp"
 #include "runtime/program_check.hpp"
+#include "runtime/realtime_thread.hpp"
 #include "runtime/recorder.hpp"
+#include "safety/trip.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -54,14 +57,19 @@ class Run {
         segments_(static_cast<std::size_t>(request.machine.path.look_ahead)),
         samples_(kSampleBuffer),
         interpolator_(segments_, request.machine.period, request.machine.interpolation),
-        cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period) {}
+        cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period,
+               request.machine.safety, request.machine.limits.feedrate) {}
 
   Expected<RunResult> execute();
 
  private:
-  void plan(gcode::Reader reader);
+  void plan(gcode::Reader& reader);
+  void guarded_plan(gcode::Reader& reader) noexcept;
   void move();
+  void guarded_move() noexcept;
+  void take(const trace::Sample& sample);
   void record();
+  void run_threads(gcode::Reader& reader);
   std::optional<Error> failure() const;
   void report_progress();
   metrics::Summary summarise(double wall_time);
@@ -75,9 +83,11 @@ class Run {
   Cycle cycle_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_ended_{false};
-  PlanFigures plan_figures_;                 // written by the planning thread, read after its end
-  std::optional<Error> plan_error_;          // the same
-  MotionEnd motion_end_ = MotionEnd::kDone;  // written by the motion thread, read after its end
+  PlanFigures plan_figures_;         // written by the planning thread, read after its end
+  std::optional<Error> plan_error_;  // the same
+  MotionResult motion_;              // written by the motion thread, read after its end
+  std::optional<Error> move_error_;  // the same
+  std::vector<std::string> notes_;   // the same
   std::optional<Error> record_error_;
   int shown_percent_ = -1;
 };
@@ -88,8 +98,24 @@ gcode::ReaderOptions reader_options(const RunRequest& request) {
   return options;
 }
 
-void Run::plan(gcode::Reader reader) {
-  auto figures = plan_program(reader, request_.machine, [this](feedrate::PlannedSegment&& planned) {
+/// What a thread threw, as an error of the run.
+Error thrown(const char* where) {
+  std::string what = "unknown exception";
+  try {
+    throw;
+  } catch (const std::exception& exception) {
+    what = exception.what();
+  } catch (...) {
+  }
+  return {ErrorCode::kMachine, fmt::format("{} failed: {}", where, what), {}, 0, 0};
+}
+
+void Run::plan(gcode::Reader& reader) {
+  std::int64_t count = 0;
+  auto figures = plan_program(reader, request_.machine, [&](feedrate::PlannedSegment&& planned) {
+    if (request_.hooks.before_segment) {
+      request_.hooks.before_segment(count++);
+    }
     return segments_.push(std::move(planned));
   });
   if (figures) {
@@ -98,43 +124,83 @@ void Run::plan(gcode::Reader reader) {
     plan_error_ = figures.error();
     stop_ = true;
   }
+}
+
+/// Body of the planning thread: nothing escapes, and the motion thread is told the end.
+void Run::guarded_plan(gcode::Reader& reader) noexcept {
+  try {
+    plan(reader);
+  } catch (...) {
+    plan_error_ = thrown("planning");
+    stop_ = true;
+  }
   segments_.close();
 }
 
 void Run::move() {
+  std::optional<RealtimeThread> realtime;
+  if (request_.is_wall_clock) {
+    realtime.emplace(request_.machine.realtime);
+    notes_ = realtime->notes();
+  }
   Pace pace;
   pace.is_wall_clock = request_.is_wall_clock;
   pace.period = request_.machine.period;
-  motion_end_ = run_motion(cycle_, interpolator_, segments_, samples_, request_.machine.limits,
-                           pace, request_.hal != nullptr, stop_);
+  pace.ready_timeout = request_.machine.safety.ready_timeout;
+  pace.realtime = request_.machine.realtime;
+  pace.before_period = request_.hooks.before_period;
+  motion_ =
+      run_motion(cycle_, interpolator_, segments_, samples_, request_.machine.limits, pace, stop_);
+}
+
+/// Body of the motion thread: at its end the machine is off.
+void Run::guarded_move() noexcept {
+  try {
+    move();
+  } catch (...) {
+    cycle_.switch_off();
+    motion_.end = MotionEnd::kMachineError;
+    move_error_ = thrown("the motion thread");
+  }
   segments_.stop();
   has_ended_.store(true, std::memory_order_release);
 }
 
-/// Drains the samples until the motion has ended; after an error goes on draining, so that the
-/// machine can brake.
+/// Records a sample; after an error drops it, so that the machine can brake.
+void Run::take(const trace::Sample& sample) {
+  if (record_error_) {
+    return;
+  }
+  if (auto taken = recorder_.take(sample); !taken) {
+    record_error_ = taken.error();
+    stop_ = true;
+  }
+}
+
+/// Drains the samples until the motion has ended. Nothing escapes: what throws brakes the machine.
 void Run::record() {
   trace::Sample sample;
   for (;;) {
     const bool has_ended = has_ended_.load(std::memory_order_acquire);
     bool is_empty = true;
-    for (int i = 0; i < kSamplesATurn && samples_.pop(sample); ++i) {
-      is_empty = false;
-      if (record_error_) {
-        continue;
+    try {
+      for (int i = 0; i < kSamplesATurn && samples_.pop(sample); ++i) {
+        is_empty = false;
+        take(sample);
       }
-      if (auto taken = recorder_.take(sample); !taken) {
-        record_error_ = taken.error();
+      if (request_.stop != nullptr && request_.stop->load()) {
         stop_ = true;
       }
+      if (!record_error_) {
+        report_progress();
+      }
+    } catch (...) {
+      record_error_ = thrown("recording");
+      stop_ = true;
     }
     if (is_empty && has_ended) {
       return;
     }
-    if (request_.stop != nullptr && request_.stop->load()) {
-      stop_ = true;
-    }
-    report_progress();
     if (is_empty) {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
@@ -154,15 +220,17 @@ void Run::report_progress() {
 }
 
 std::optional<Error> Run::failure() const {
-  if (record_error_) {
-    return record_error_;
-  }
-  if (plan_error_) {
-    return plan_error_;
+  // What switched the machine off is said before what only braked it.
+  const bool was_switched_off =
+      motion_.trip && motion_.trip->reaction == safety::Reaction::kImmediate;
+  for (const auto& error : {move_error_, record_error_, plan_error_}) {
+    if (error && !was_switched_off) {
+      return error;
+    }
   }
   const auto at =
       fmt::format("at t = {:.3f} s, NC line {}", recorder_.last().t, recorder_.last().line);
-  switch (motion_end_) {
+  switch (motion_.end) {
     case MotionEnd::kDone:
       return std::nullopt;
     case MotionEnd::kInterrupted:
@@ -174,9 +242,8 @@ std::optional<Error> Run::failure() const {
                    {},
                    0,
                    0};
-    case MotionEnd::kOverrun:
-      return Error{
-          ErrorCode::kMachine, "samples came faster than they could be written, " + at, {}, 0, 0};
+    case MotionEnd::kTripped:
+      return Error{ErrorCode::kMachine, safety::describe(*motion_.trip), {}, 0, 0};
   }
   return std::nullopt;
 }
@@ -203,8 +270,25 @@ metrics::Summary Run::summarise(double wall_time) {
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;
+    if (summary.run->realtime) {
+      summary.run->realtime->late_periods = motion_.late_periods;
+      summary.run->realtime->worst_latency = motion_.worst_latency;
+      summary.run->realtime->notes = notes_;
+    }
   }
   return summary;
+}
+
+/// Starts both threads and records until they have ended.
+void Run::run_threads(gcode::Reader& reader) {
+  const std::jthread planning([this, &reader] { guarded_plan(reader); });
+  try {
+    const std::jthread motion([this] { guarded_move(); });
+    record();
+  } catch (...) {  // no second thread could be had
+    move_error_ = thrown("the motion thread");
+    segments_.stop();
+  }
 }
 
 Expected<RunResult> Run::execute() {
@@ -213,11 +297,7 @@ Expected<RunResult> Run::execute() {
     return tl::unexpected(reader.error());
   }
   const auto start = std::chrono::steady_clock::now();
-  {
-    std::jthread planning([this, &reader] { plan(std::move(*reader)); });
-    std::jthread motion([this] { move(); });
-    record();
-  }
+  run_threads(*reader);
   const double wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunResult result;
@@ -259,6 +339,7 @@ Expected<RunResult> run_program(const RunRequest& request) {
   recording.limits = request.machine.limits;
   recording.period = request.machine.period;
   recording.has_machine = request.hal != nullptr;
+  recording.is_wall_clock = request.is_wall_clock;
   auto recorder = Recorder::create(recording);
   if (!recorder) {
     return tl::unexpected(recorder.error());

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "hal/machine.hpp"
 #include "metrics/summary.hpp"
+#include "runtime/hooks.hpp"
 
 namespace twin::runtime {
 
@@ -23,6 +24,7 @@ struct RunRequest {
   bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
+  Hooks hooks;                              ///< for tests
 };
 
 /// How far a run got.
@@ -35,7 +37,8 @@ struct RunResult {
 /// Plans a program, moves the machine along it and records everything: planning thread, motion
 /// thread, and the caller's as recorder.
 ///
-/// Before anything moves the whole program is read and held against the travel.
+/// Before anything moves the whole program is read and held against the travel. Whatever ends the
+/// motion, the machine is off by then; what throws in a thread, progress() included, brakes it.
 ///
 /// @returns what was recorded, or the error that kept the run from starting
 Expected<RunResult> run_program(const RunRequest& request);

@@ -28,6 +28,8 @@ inline constexpr std::array<std::string_view, 16> kColumns{
     "y_tracking_error_um"};
 
 inline constexpr std::string_view kTraceName = "trace.csv";
+/// In the folder of the plots: histograms of the periods of a run on the wall clock.
+inline constexpr std::string_view kTimingName = "timing.csv";
 inline constexpr std::string_view kPartialTraceName = "trace.partial.csv";
 inline constexpr std::string_view kLimitName =
     "feedrate_limit.csv";  ///< in the folder of the plots

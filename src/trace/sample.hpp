@@ -21,6 +21,8 @@ struct Sample {
   Vec2 volts = Vec2::Zero();  ///< drive command [V]
   double cycle_time =
       0.0;  ///< wall-clock time of the cycle's computation [s]; not written to the trace
+  double wake_up_latency = 0.0;  ///< on the wall clock: begin of the period after its deadline [s]
+  double total_time = 0.0;       ///< on the wall clock: from the deadline to the written output [s]
 };
 
 }  // namespace twin::trace

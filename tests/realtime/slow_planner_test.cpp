@@ -80,7 +80,7 @@ struct SlowRun {
     Pace pace;
     pace.is_wall_clock = true;
     pace.settle_time = 0.01;
-    return run_motion(cycle, interpolator, segments, to, limits, pace, true, stop);
+    return run_motion(cycle, interpolator, segments, to, limits, pace, stop).end;
   }
 
   /// How often it came to rest between start and end.
@@ -156,7 +156,7 @@ TEST(SlowPlanner, SamplesThatNobodyTakesEndTheMotion) {
   SlowRun run(200);
   SampleQueue few{10};
   run.plan_ahead();
-  EXPECT_EQ(run.move(few), MotionEnd::kOverrun);
+  EXPECT_EQ(run.move(few), MotionEnd::kTripped);
 }
 
 }  // namespace

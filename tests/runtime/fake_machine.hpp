@@ -47,6 +47,7 @@ class FakeMachine final : public hal::Machine {
   }
   hal::Status read(hal::Inputs& inputs) noexcept override {
     inputs = {};
+    inputs.servo_ready.fill(true);
     return ++reads >= read_that_fails ? hal::Status::kError : hal::Status::kOk;
   }
   hal::Status write(const hal::Outputs& outputs) noexcept override {
