@@ -11,6 +11,7 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "hal/mujoco/table_params.hpp"
+#include "hal/rig/rig_settings.hpp"
 #include "hal/signals.hpp"
 #include "interpolator/settings.hpp"
 #include "servo/gains.hpp"
@@ -28,7 +29,8 @@ struct MachineFile {
   double period = 0.001;  ///< interpolation period T [s]
   interpolator::Settings interpolation;
   std::array<servo::Gains, hal::kServoAxes> servo;
-  hal::TableParams table;  ///< table.model is absolute once read
+  hal::TableParams table;     ///< table.model is absolute once read
+  hal::rig::RigSettings rig;  ///< cards and wires of the real machine
 };
 
 /// Reads a machine file and then applies `section.key=value` texts to it, in order.
