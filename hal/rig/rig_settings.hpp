@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hal/rig/io_port/access.hpp"
 #include "hal/signals.hpp"
 
 /// Everything about cards, wires and signals of the real rig that can differ from rig to rig or is
@@ -14,12 +15,6 @@ namespace twin::hal::rig {
 enum class Driver : std::uint8_t {
   kRegisters,  ///< their registers, worked by this program
   kDaqnavi,    ///< Advantech's DAQNavi library, loaded at run time
-};
-
-/// How registers are reached.
-enum class Access : std::uint8_t {
-  kSysfs,   ///< resource file of the card, pread and pwrite
-  kIoperm,  ///< port instructions after ioperm()
 };
 
 /// The level of a digital line at which its signal is given.
@@ -35,7 +30,7 @@ struct Line {
 struct AxisWiring {
   int dac = 0;                          ///< converter of the PCI-1716 that feeds V-REF, 0 or 1
   int counter = 0;                      ///< counter of the PCI-1784, 0 to 3
-  bool vref_reversed = false;           ///< a positive voltage moves towards smaller counts
+  bool vref_reversed = false;           ///< a positive voltage moves towards smaller positions
   bool encoder_reversed = false;        ///< counts fall where the position grows
   double mm_per_count = 0.0;            ///< encoder scale [mm/count]; 0: that of the table
   double mm_per_s_per_volt = 0.0;       ///< V-REF scale [mm/s/V]; 0: that of the table
@@ -71,10 +66,20 @@ struct RigSettings {
   std::string daqnavi_library = "libbiodaq.so";  ///< name or path
   int pci1716_board_id = 0;                      ///< its switch, 0 to 15
   int pci1784_board_id = 0;                      ///< its switch, 0 to 15
-  int counter_mode = 0x193;         ///< mode word: x4, input filter, reset to 0, software latch
-  int clock_control = 0x03010003;   ///< clock word: 1 MHz filter clock
-  int counter_reset_offset = 0x2C;  ///< register that sets counters to 0
-  double alarm_reset_time = 0.1;    ///< length of the reset pulse [s]
+  /// Mode word of the counters: x4, input filter, reset to 0, software latch. The value is one that
+  /// ran [PRECITEC]; what bits 4 and 7 of it do is not confirmed.
+  int counter_mode = 0x193;
+  /// Clock word: 1 MHz filter clock, which counts up to 0.25 MHz of phase A. The value is one that
+  /// ran [PRECITEC]; words for faster clocks are not confirmed.
+  int clock_control = 0x03010003;
+  /// Set the counters to 0 when the cards are opened. Not needed: zero is kept in software.
+  bool reset_counters = false;
+  /// Register that sets counters to 0, used with reset_counters only; inferred, not confirmed.
+  int counter_reset_offset = 0x2C;
+  /// Look at the index bits of the interrupt status. Not confirmed: that they are set while the
+  /// interrupts themselves are off. False: index marks are never seen.
+  bool read_index = true;
+  double alarm_reset_time = 0.1;  ///< length of the reset pulse [s]
   std::array<AxisWiring, kServoAxes> axis{AxisWiring{}, default_y_wiring()};
 };
 

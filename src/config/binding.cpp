@@ -63,6 +63,14 @@ struct Assign {
     }
     return number(b, value, "a whole number").map([&](double x) { *field = static_cast<int>(x); });
   }
+  Expected<void> operator()(bool* field) const {
+    const auto* flag = std::get_if<bool>(&value);
+    if (flag == nullptr) {
+      return wrong_type(b, value, "true or false");
+    }
+    *field = *flag;
+    return {};
+  }
   Expected<void> operator()(std::string* field) const {
     const auto* text = std::get_if<std::string>(&value);
     if (text == nullptr || text->empty()) {
@@ -122,6 +130,7 @@ std::string value_text(const Binding& binding) {
     double per_base;
     std::string operator()(const double* x) const { return real_text(*x, per_base); }
     std::string operator()(const int* x) const { return std::to_string(*x); }
+    std::string operator()(const bool* x) const { return *x ? "true" : "false"; }
     std::string operator()(const std::string* x) const { return '"' + *x + '"'; }
     std::string operator()(const Choice& x) const {
       return '"' + std::string(x.names[x.get()]) + '"';
@@ -156,6 +165,9 @@ std::string pretty_unit(std::string_view unit) {
 std::string range_text(const Binding& binding) {
   if (const auto* named = std::get_if<Choice>(&binding.target)) {
     return fmt::format("{}", fmt::join(named->names, ", "));
+  }
+  if (std::holds_alternative<bool*>(binding.target)) {
+    return "true, false";
   }
   if (std::holds_alternative<std::string*>(binding.target)) {
     return "";

@@ -34,7 +34,7 @@ Choice choice(Enum& field, std::vector<std::string_view> names) {
 /// The key wears its unit (`acceleration_mm_per_s2`); the bare name (`acceleration`) means the
 /// same. The field is in base units: field = value / per_base.
 struct Binding {
-  using Target = std::variant<double*, int*, std::string*, Vec3*, Choice>;
+  using Target = std::variant<double*, int*, bool*, std::string*, Vec3*, Choice>;
 
   std::string section;  ///< "limits", "servo.x"
   std::string name;     ///< "acceleration"
@@ -64,6 +64,9 @@ std::vector<Binding> table_bindings(hal::TableParams& table);
 /// The part of bindings() that is about monitors and wall clock: [safety], [realtime].
 std::vector<Binding> safety_bindings(MachineFile& machine);
 
+/// The part of bindings() that is about the real rig.
+std::vector<Binding> rig_bindings(hal::rig::RigSettings& rig);
+
 /// Gives the field a value; the error has the key, the value, its unit and the range.
 Expected<void> assign(const Binding& binding, const Value& value);
 
@@ -73,7 +76,7 @@ std::string value_text(const Binding& binding);
 /// "mm/s^2" from "mm_per_s2", "1/s" from "per_s"; empty stays empty.
 std::string pretty_unit(std::string_view unit);
 
-/// "0.125 to 4 ms", or the names of a choice; empty where any text will do
+/// "0.125 to 4 ms", the names of a choice, "true, false"; empty where any text will do
 std::string range_text(const Binding& binding);
 
 }  // namespace twin::config

@@ -94,6 +94,9 @@ std::vector<Binding> bindings(MachineFile& machine) {
   for (Binding& binding : table_bindings(machine.table)) {
     list.push_back(std::move(binding));
   }
+  for (Binding& binding : rig_bindings(machine.rig)) {
+    list.push_back(std::move(binding));
+  }
   return list;
 }
 

@@ -11,6 +11,7 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "hal/mujoco/table_params.hpp"
+#include "hal/rig/rig_settings.hpp"
 #include "hal/signals.hpp"
 #include "interpolator/settings.hpp"
 #include "runtime/realtime_settings.hpp"
@@ -32,7 +33,8 @@ struct MachineFile {
   std::array<servo::Gains, hal::kServoAxes> servo;
   safety::Settings safety;
   runtime::RealtimeSettings realtime;
-  hal::TableParams table;  ///< table.model is absolute once read
+  hal::TableParams table;     ///< table.model is absolute once read
+  hal::rig::RigSettings rig;  ///< cards and wires of the real machine
 };
 
 /// Reads a machine file and then applies `section.key=value` texts to it, in order.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "config/rig_rules.hpp"
+
 namespace twin::config {
 
 Expected<void> check_rules(const MachineFile& machine) {
@@ -19,7 +21,7 @@ Expected<void> check_rules(const MachineFile& machine) {
                 fmt::format("planning.min_segments = {} is more than planning.max_segments = {}",
                             machine.path.min_segments, machine.path.max_segments));
   }
-  return {};
+  return check_rig_rules(machine.rig);
 }
 
 }  // namespace twin::config

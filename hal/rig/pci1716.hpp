@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "hal/mujoco/dac.hpp"
+#include "hal/rig/cards.hpp"
+#include "hal/rig/io_port/io_port.hpp"
+
+namespace twin::hal::rig {
+
+/// Code of 0 V in the +-10 V range; code 0 would be -10 V.
+inline constexpr std::uint16_t kZeroVolts = 0x8000;
+
+/// Puts both converters of a PCI-1716 at 0 V, then the digital outputs as given.
+///
+/// Order of writes: 0 V code to both data registers, range word (+-10 V), 0 V codes again, digital
+/// outputs. So no write leaves a code behind that another range turns into a motion: code 0, which
+/// is 0 V in a unipolar range, is -10 V in ours. Driver, guard and signal handlers share this
+/// function: it is as safe in a signal handler as the port is, and may be called at any time.
+void make_safe(IoPort& pci1716, std::uint16_t digital) noexcept;
+
+/// Advantech PCI-1716: two 16 bit D/A converters, 16 digital inputs and outputs, A/D converter.
+///
+/// Register map (BAR 2) as in Linux-Comedi's adv_pci1710 and Advantech's own driver of 2006. The
+/// converters are used at +-10 V, offset binary: code = clamp(round(V / 10 V 2^15) + 2^15, 0, 2^16
+/// - 1). Registers are accessed 16 bits wide: a wider write at 0x0A or 0x0C would reach the next
+/// one.
+class Pci1716 {
+ public:
+  /// Range of an analogue input, by its code in the gain register; bipolar, single ended.
+  enum class InputRange : std::uint16_t { k5V = 0x00, k2V5 = 0x01, k1V25 = 0x02, k10V = 0x04 };
+
+  /// Touches nothing. The port must outlive this.
+  /// @param safe_digital  digital outputs with every drive off
+  Pci1716(IoPort& port, std::uint16_t safe_digital) noexcept;
+
+  /// Drives off, then 0 V at +-10 V. Real-time safe.
+  void open() noexcept;
+  /// 0 V, then drives off. Real-time safe, and safe in a signal handler where the port is.
+  void make_safe() noexcept;
+
+  /// Sets a converter; what it cannot do is limited, not-a-number is 0 V. Real-time safe.
+  /// @param channel  0 or 1
+  void set_volts(std::size_t channel, double volts) noexcept;
+  /// Sets the digital outputs; writes only where they change. Real-time safe.
+  void set_digital(std::uint16_t levels) noexcept;
+  /// Digital outputs as last written.
+  std::uint16_t digital_out() const noexcept { return digital_out_; }
+
+  /// Digital inputs. Real-time safe.
+  std::uint16_t digital_in() noexcept;
+  /// Converts one analogue input by software trigger, polling for at most some 100 accesses.
+  /// @param channel  0 to 15
+  /// @returns [V], or nothing if the converter did not answer. Real-time safe.
+  std::optional<double> read_volts(int channel, InputRange range = InputRange::k10V) noexcept;
+  /// Board ID switch, 0 to 15; -1 if the card does not answer. Real-time safe.
+  int board_id() noexcept;
+  /// True if the card no longer answers: board ID and A/D status read all ones, which no card shows
+  /// (its FIFO would be empty and full at once). Real-time safe.
+  bool is_gone() noexcept;
+
+ private:
+  IoPort& port_;
+  Dac dac_{16};
+  std::uint16_t safe_digital_;
+  std::uint16_t digital_out_;  // what the write-only register holds
+};
+
+}  // namespace twin::hal::rig

@@ -1,0 +1,121 @@
+#include "hal/rig/register_cards.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <utility>
+
+#include "hal/rig/servopack.hpp"
+
+namespace twin::hal::rig {
+
+RegisterCards::RegisterCards(std::unique_ptr<IoPort> pci1716, std::unique_ptr<IoPort> pci1784,
+                             const RigSettings& settings)
+    : port_1716_(std::move(pci1716)),
+      port_1784_(std::move(pci1784)),
+      analogue_(*port_1716_, safe_digital(settings)),
+      counters_(*port_1784_, settings) {}
+
+Expected<std::unique_ptr<Cards>> RegisterCards::open(std::unique_ptr<IoPort> pci1716,
+                                                     std::unique_ptr<IoPort> pci1784,
+                                                     const RigSettings& settings) {
+  std::unique_ptr<RegisterCards> cards(
+      new RegisterCards(std::move(pci1716), std::move(pci1784), settings));
+  cards->analogue_.open();
+  cards->counters_.open();
+  CardInputs inputs;
+  if (cards->read(inputs) == Status::kError) {
+    return fail(ErrorCode::kMachine, cards->last_error());
+  }
+  if (cards->analogue_.is_gone()) {
+    cards->fail_with(Fault::kPci1716Gone);
+    return fail(ErrorCode::kMachine, cards->last_error());
+  }
+  return std::unique_ptr<Cards>(std::move(cards));
+}
+
+RegisterCards::~RegisterCards() { analogue_.make_safe(); }
+
+Status RegisterCards::fail_with(Fault fault) noexcept {
+  fault_ = fault;
+  return Status::kError;
+}
+
+Status RegisterCards::check_ports() noexcept {
+  if (port_1716_->error() != 0) {
+    return fail_with(Fault::kPci1716Port);
+  }
+  return port_1784_->error() != 0 ? fail_with(Fault::kPci1784Port) : Status::kOk;
+}
+
+Status RegisterCards::read(CardInputs& inputs) noexcept {
+  const bool has_counters = counters_.read(inputs.counts);
+  inputs.index_seen = counters_.take_index();
+  inputs.digital = analogue_.digital_in();
+  if (check_ports() == Status::kError) {
+    return Status::kError;
+  }
+  if (!has_counters) {
+    return fail_with(Fault::kPci1784Gone);
+  }
+  if (inputs.digital == 0xFFFF && analogue_.is_gone()) {
+    return fail_with(Fault::kPci1716Gone);
+  }
+  return Status::kOk;
+}
+
+Status RegisterCards::write(const CardOutputs& outputs) noexcept {
+  analogue_.set_digital(outputs.digital);
+  for (std::size_t channel = 0; channel < kDacs; ++channel) {
+    analogue_.set_volts(channel, outputs.volts[channel]);
+  }
+  return check_ports();
+}
+
+std::string RegisterCards::last_error() const {
+  constexpr const char* kGone = "the {} no longer answers: its registers read all ones";
+  constexpr const char* kPort = "an access to the {}'s registers failed: {}";
+  switch (fault_) {
+    case Fault::kNone:
+      return {};
+    case Fault::kPci1716Gone:
+      return fmt::format(kGone, kPci1716.name);
+    case Fault::kPci1784Gone:
+      return fmt::format(kGone, kPci1784.name);
+    case Fault::kPci1716Port:
+      return fmt::format(kPort, kPci1716.name, std::strerror(port_1716_->error()));
+    case Fault::kPci1784Port:
+      return fmt::format(kPort, kPci1784.name, std::strerror(port_1784_->error()));
+  }
+  return {};
+}
+
+Expected<CardsFound> find_cards(const RigSettings& settings) {
+  auto analogue = find_card(kPci1716, settings.pci1716_board_id, settings.access, settings.sysfs);
+  if (!analogue) {
+    return tl::unexpected(analogue.error());
+  }
+  auto counters = find_card(kPci1784, settings.pci1784_board_id, settings.access, settings.sysfs);
+  if (!counters) {
+    return tl::unexpected(counters.error());
+  }
+  return CardsFound{std::move(*analogue), std::move(*counters)};
+}
+
+Expected<std::unique_ptr<Cards>> open_register_cards(const RigSettings& settings) {
+  const Expected<CardsFound> found = find_cards(settings);
+  if (!found) {
+    return tl::unexpected(found.error());
+  }
+  auto analogue = open_port(found->pci1716.port);
+  if (!analogue) {
+    return tl::unexpected(analogue.error());
+  }
+  auto counters = open_port(found->pci1784.port);
+  if (!counters) {
+    return tl::unexpected(counters.error());
+  }
+  return RegisterCards::open(std::move(*analogue), std::move(*counters), settings);
+}
+
+}  // namespace twin::hal::rig
