@@ -31,6 +31,7 @@ struct MachineInfo {
   std::string name;                ///< "mujoco", "ideal", "rig"
   bool simulated = true;           ///< false only where metal moves
   bool has_truth = true;           ///< truth() means something
+  bool keeps_own_time = false;     ///< its periods pass on the wall clock, not inside read()
   bool follows_reference = false;  ///< position equals the reference handed to write(); measured
                                    ///< values are those of truth() after write()
   std::array<double, kServoAxes> mm_per_count{};       ///< encoder scale, signed [mm/count]

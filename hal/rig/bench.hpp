@@ -19,6 +19,8 @@ class Bench {
   /// Power on: everything at rest, counters at 0. Not real-time safe.
   /// @param period  that advance() lets pass [s]
   virtual Expected<void> power_on(double period) = 0;
+  /// True where time passes by itself, on the wall clock. Real-time safe.
+  virtual bool keeps_own_time() const noexcept { return false; }
   /// Lets one period pass; does nothing where the bench keeps its own time. False: the simulation
   /// failed, last_error() says why. Real-time safe.
   virtual bool advance() noexcept = 0;

@@ -29,16 +29,17 @@ tl::unexpected<Error> refused(std::string_view call, std::string_view card, int 
 
 }  // namespace
 
-DaqnaviCards::DaqnaviCards(DaqnaviLibrary library, const RigSettings& settings)
-    : library_(std::move(library)), safe_digital_(safe_digital(settings)) {}
+DaqnaviCards::DaqnaviCards(DaqnaviLibrary library, std::uint16_t safe_digital)
+    : library_(std::move(library)), safe_digital_(safe_digital) {}
 
 Expected<std::unique_ptr<Cards>> DaqnaviCards::open(const RigSettings& settings) {
   Expected<DaqnaviLibrary> library = DaqnaviLibrary::load(settings.daqnavi_library);
   if (!library) {
     return tl::unexpected(library.error());
   }
-  std::unique_ptr<DaqnaviCards> cards(new DaqnaviCards(std::move(*library), settings));
-  const Expected<void> opened = cards->open_outputs(settings)
+  std::unique_ptr<DaqnaviCards> cards(
+      new DaqnaviCards(std::move(*library), safe_digital(settings)));
+  const Expected<void> opened = cards->open_outputs(settings.pci1716_board_id)
                                     .and_then([&] { return cards->open_inputs(settings); })
                                     .and_then([&] { return cards->open_counters(settings); });
   if (!opened) {
@@ -47,9 +48,22 @@ Expected<std::unique_ptr<Cards>> DaqnaviCards::open(const RigSettings& settings)
   return std::unique_ptr<Cards>(std::move(cards));
 }
 
+Expected<std::unique_ptr<Cards>> DaqnaviCards::open_outputs_only(const std::string& library,
+                                                                 int board_id,
+                                                                 std::uint16_t safe_digital) {
+  Expected<DaqnaviLibrary> loaded = DaqnaviLibrary::load(library);
+  if (!loaded) {
+    return tl::unexpected(loaded.error());
+  }
+  std::unique_ptr<DaqnaviCards> cards(new DaqnaviCards(std::move(*loaded), safe_digital));
+  if (const Expected<void> opened = cards->open_outputs(board_id); !opened) {
+    return tl::unexpected(opened.error());
+  }
+  return std::unique_ptr<Cards>(std::move(cards));
+}
+
 // Drives off before the converters are touched.
-Expected<void> DaqnaviCards::open_outputs(const RigSettings& settings) {
-  const int board_id = settings.pci1716_board_id;
+Expected<void> DaqnaviCards::open_outputs(int board_id) {
   const auto card = device("PCI-1716", board_id);
   const auto refuse = [&](const char* call, Api::ErrorCode code) {
     return refused(call, "PCI-1716", board_id, code);

@@ -21,6 +21,10 @@ class DaqnaviCards final : public Cards {
   /// Loads the library and opens both cards by "PCI-1716,BID#n" and "PCI-1784,BID#n": drives off,
   /// +-10 V, 0 V, counters on. The error names the call, the card and DAQNavi's code.
   static Expected<std::unique_ptr<Cards>> open(const RigSettings& settings);
+  /// Opens the outputs of the PCI-1716 alone, for whoever only makes them safe: read() fails.
+  static Expected<std::unique_ptr<Cards>> open_outputs_only(const std::string& library,
+                                                            int board_id,
+                                                            std::uint16_t safe_digital);
   /// 0 V and drives off.
   ~DaqnaviCards() override;
 
@@ -32,8 +36,8 @@ class DaqnaviCards final : public Cards {
  private:
   using Api = DaqnaviApi;
 
-  DaqnaviCards(DaqnaviLibrary library, const RigSettings& settings);
-  Expected<void> open_outputs(const RigSettings& settings);
+  DaqnaviCards(DaqnaviLibrary library, std::uint16_t safe_digital);
+  Expected<void> open_outputs(int board_id);
   Expected<void> open_inputs(const RigSettings& settings);
   Expected<void> open_counters(const RigSettings& settings);
   bool write_digital(std::uint16_t levels) noexcept;

@@ -18,7 +18,7 @@ struct DaqnaviApi {
   /// Which card, and with which rights.
   struct DeviceInformation {
     std::int32_t device_number = -1;  ///< -1: by description
-    std::int32_t device_mode = 1;     ///< write, without a reset of the card when it is opened
+    std::int32_t device_mode = 3;     ///< write, shared with the guard; the card is not reset
     std::int32_t module_index = 0;
     wchar_t description[64] = {};  ///< "PCI-1716,BID#0"
   };

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/mujoco/dac.hpp"
+#include "hal/dac.hpp"
 #include "hal/rig/cards.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 

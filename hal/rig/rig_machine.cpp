@@ -21,6 +21,7 @@ RigMachine::RigMachine(RigSettings settings, const TableScales& table, CardsFact
   info_.name = "rig";
   info_.simulated = bench_ != nullptr;
   info_.has_truth = bench_ != nullptr;
+  info_.keeps_own_time = bench_ == nullptr || bench_->keeps_own_time();
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     info_.mm_per_count[axis] = drives_[axis].mm_per_count(table.mm_per_count[axis]);
     info_.mm_per_s_per_volt[axis] = drives_[axis].mm_per_s_per_volt(table.mm_per_s_per_volt[axis]);
@@ -47,6 +48,7 @@ Expected<void> RigMachine::configure(double period) {
     return tl::unexpected(cards.error());
   }
   cards_ = std::move(*cards);
+  emergency_.emplace(*cards_);
   period_ = period;
   state_ = State::kInactive;
   return {};
@@ -172,6 +174,9 @@ Status RigMachine::write(const Outputs& outputs) noexcept {
   if (has_guard_acted()) {
     return stop_with(Fault::kGuard);
   }
+  if (watch_ != nullptr && !watch_->is_alive()) {
+    return stop_with(Fault::kGuardGone);
+  }
   if (watch_ != nullptr && !is_armed_) {
     is_armed_ = true;
     watch_->arm();
@@ -227,6 +232,7 @@ void RigMachine::deactivate() noexcept {
 
 void RigMachine::cleanup() noexcept {
   deactivate();
+  emergency_.reset();
   cards_.reset();
   home_.fill(0);
   origin_ = {};
@@ -250,6 +256,8 @@ std::string RigMachine::last_error() const {
       return bench_->last_error();
     case Fault::kGuard:
       return "the guard has made the outputs safe: heartbeats were missing for too long";
+    case Fault::kGuardGone:
+      return "the guard process is gone: nothing would make the outputs safe if this one hung";
   }
   return {};
 }

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hal/machine.hpp"
 #include "hal/rig/bench.hpp"
 #include "hal/rig/cards.hpp"
+#include "hal/rig/emergency.hpp"
 #include "hal/rig/rig_settings.hpp"
 #include "hal/rig/servopack.hpp"
 #include "hal/rig/watch.hpp"
@@ -56,7 +58,16 @@ class RigMachine final : public Machine {
   Cards* cards() noexcept { return cards_.get(); }
 
  private:
-  enum class Fault { kNone, kNotConfigured, kNotActive, kNotANumber, kCards, kBench, kGuard };
+  enum class Fault {
+    kNone,
+    kNotConfigured,
+    kNotActive,
+    kNotANumber,
+    kCards,
+    kBench,
+    kGuard,
+    kGuardGone
+  };
 
   Expected<void> reset_alarms(CardInputs& inputs);
   Expected<void> wait(double time);
@@ -75,6 +86,7 @@ class RigMachine final : public Machine {
   State state_ = State::kUnconfigured;
   Fault fault_ = Fault::kNone;
   std::unique_ptr<Cards> cards_;
+  std::optional<EmergencyStop> emergency_;
   double period_ = 0.0;                          // [s]
   std::array<std::int64_t, kServoAxes> home_{};  // of the counters, set by activate() [counts]
   std::array<bool, kServoAxes> servo_on_{};      // as last written

@@ -21,6 +21,8 @@ class Watch {
   virtual void disarm() noexcept = 0;
   /// The guard has made the outputs safe; nothing may be written to them any more. Real-time safe.
   virtual bool has_acted() const noexcept = 0;
+  /// False once the guard itself is gone: nothing watches any more. Real-time safe.
+  virtual bool is_alive() noexcept = 0;
 };
 
 }  // namespace twin::hal::rig

@@ -1,0 +1,80 @@
+#include "hal/rig/guard/guarded_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "hal/rig/boards/emulated_pci1716.hpp"
+#include "hal/rig/boards/shared_registers.hpp"
+#include "hal/rig/daqnavi_cards.hpp"
+#include "hal/rig/io_port/port_address.hpp"
+#include "hal/rig/pci1716.hpp"
+
+namespace twin::hal::rig {
+namespace {
+
+using MakeSafe = std::function<void()>;
+
+/// The part of a text behind a prefix, if it has that.
+bool take_prefix(std::string_view& text, std::string_view prefix) {
+  const bool has_it = text.starts_with(prefix);
+  if (has_it) {
+    text.remove_prefix(prefix.size());
+  }
+  return has_it;
+}
+
+Expected<MakeSafe> open_shared(const std::string& name, std::uint16_t digital) {
+  auto attached = SharedRegisters::attach(name, SharedRole::kObserver);
+  if (!attached) {
+    return tl::unexpected(attached.error());
+  }
+  const std::shared_ptr<SharedRegisters> shared = std::move(*attached);
+  const auto port = std::make_shared<EmulatedPci1716>(shared->boards().pci1716);
+  return [shared, port, digital] { make_safe(*port, digital); };
+}
+
+Expected<MakeSafe> open_daqnavi(std::string_view library_and_board, std::uint16_t digital) {
+  const std::size_t colon = library_and_board.rfind(':');
+  const std::string_view number =
+      library_and_board.substr(std::min(colon, library_and_board.size()));
+  int board_id = -1;
+  if (number.size() < 2 ||
+      std::from_chars(number.data() + 1, number.data() + number.size(), board_id).ec !=
+          std::errc()) {
+    return fail(ErrorCode::kUsage, fmt::format("daqnavi:{} has no board ID", library_and_board));
+  }
+  auto cards = DaqnaviCards::open_outputs_only(std::string(library_and_board.substr(0, colon)),
+                                               board_id, digital);
+  if (!cards) {
+    return tl::unexpected(cards.error());
+  }
+  return [open = std::shared_ptr<Cards>(std::move(*cards))] { open->make_safe(); };
+}
+
+Expected<MakeSafe> open_registers(std::string_view address, std::uint16_t digital) {
+  return port_address_from_text(address).and_then(open_port).map(
+      [digital](std::unique_ptr<IoPort> opened) {
+        const std::shared_ptr<IoPort> port = std::move(opened);
+        return MakeSafe([port, digital] { make_safe(*port, digital); });
+      });
+}
+
+}  // namespace
+
+Expected<MakeSafe> open_guarded_outputs(const std::string& outputs, unsigned digital) {
+  const auto levels = static_cast<std::uint16_t>(digital);
+  std::string_view rest = outputs;
+  if (take_prefix(rest, "shared:")) {
+    return open_shared(std::string(rest), levels);
+  }
+  if (take_prefix(rest, "daqnavi:")) {
+    return open_daqnavi(rest, levels);
+  }
+  return open_registers(rest, levels);
+}
+
+}  // namespace twin::hal::rig
