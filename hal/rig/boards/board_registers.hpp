@@ -2,11 +2,14 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 /// What is inside the emulated boards: plain atomics, so that they can lie in memory that two
 /// processes share, and so that a process that is killed in the middle of an access blocks nobody.
 namespace twin::hal::rig {
+
+inline constexpr std::uint32_t kAdFifoSize = 1024;  ///< samples the A/D FIFO holds
 
 /// PCI-1716. The card's side (IoPort) and the wires' side (drives) meet here.
 struct Pci1716Registers {
@@ -14,34 +17,51 @@ struct Pci1716Registers {
   std::atomic<std::uint16_t> dac_range{0};  ///< range word: channel 0 in bits 2:0, 1 in 10:8
   std::atomic<std::uint16_t> digital_out{0};
   std::atomic<std::uint16_t> digital_in{0};
-  std::atomic<std::uint16_t> ad_range{0};
-  std::atomic<std::uint16_t> ad_mux{0};
+  std::atomic<std::uint16_t> ad_mux{0};  ///< start channel in the low byte, stop in the high one
+  std::atomic<std::uint8_t> ad_next{0};  ///< channel of the next trigger
   std::atomic<std::uint16_t> control{0};
-  std::array<std::atomic<std::uint16_t>, 16> ad_gain{};  ///< range code of each channel
-  std::array<std::atomic<std::uint16_t>, 16> ad_fifo{};  ///< converted, not yet read
-  std::atomic<std::uint32_t> ad_head{0};                 ///< values ever put in
-  std::atomic<std::uint32_t> ad_tail{0};                 ///< values ever taken out
-  std::array<std::atomic<float>, 16> analogue_in{};      ///< volts at the analogue inputs
+  std::array<std::atomic<std::uint16_t>, 16> ad_gain{};           ///< range code of each channel
+  std::array<std::atomic<std::uint16_t>, kAdFifoSize> ad_fifo{};  ///< converted, not yet read
+  std::atomic<std::uint32_t> ad_head{0};                          ///< values ever put in
+  std::atomic<std::uint32_t> ad_tail{0};                          ///< values ever taken out
+  std::array<std::atomic<float>, 16> analogue_in{};               ///< at the analogue inputs [V]
   std::atomic<std::uint8_t> board_id{0};
   std::atomic<bool> is_present{true};  ///< false: every read is all ones, writes go nowhere
 };
 
-/// PCI-1784.
+/// PCI-1784. A counter shows what has run at its inputs less its base, modulo 2^32; a reset moves
+/// the base. So the wires' side alone changes what runs and the card's side needs no lock.
+///
+/// What runs is kept twice. A reader takes copy number `sequence & 1` and tries again if the
+/// sequence has changed meanwhile; the writer makes the sequence odd, changes copy 0, makes it
+/// even, changes copy 1. The copy a reader takes is whole at every instant, also if the writer is
+/// killed.
 struct Pci1784Registers {
   std::array<std::atomic<std::uint32_t>, 4> mode{};
-  std::array<std::atomic<std::uint32_t>, 4> live{};     ///< counters as they run
+  std::array<std::array<std::atomic<std::uint32_t>, 4>, 2> running{};
+  std::atomic<std::uint32_t> sequence{0};
+  std::array<std::atomic<std::uint32_t>, 4> base{};
   std::array<std::atomic<std::uint32_t>, 4> latched{};  ///< what a read shows
   std::array<std::atomic<std::uint32_t>, 4> compare{};
-  std::atomic<std::uint32_t> sequence{0};  ///< odd while the wires' side changes several counters
-  std::atomic<std::uint32_t> resets{0};    ///< bit i: counter i is to be set to 0
   std::atomic<std::uint32_t> interrupt_enable{0};
   std::atomic<std::uint32_t> interrupt_status{0};
   std::atomic<std::uint32_t> clock_control{0};
-  std::atomic<std::uint16_t> digital_out{0};
+  std::atomic<std::uint32_t> digital_out{0};
+  std::atomic<std::uint16_t> digital_mode{0};
   std::atomic<std::uint8_t> digital_in{0};
   std::atomic<std::uint8_t> index_reset{0};  ///< bit i: the index sets counter i to 0
   std::atomic<std::uint8_t> board_id{0};
   std::atomic<bool> is_present{true};
 };
+
+/// Both cards.
+struct BoardRegisters {
+  Pci1716Registers pci1716;
+  Pci1784Registers pci1784;
+};
+
+/// Switches the cards on: all registers 0, both converters at the code of 0 V, cards present, A/D
+/// inputs at 0 V. Not for cards in use.
+void power_on(BoardRegisters& boards, int pci1716_board_id, int pci1784_board_id) noexcept;
 
 }  // namespace twin::hal::rig

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hal/rig/boards/board_registers.hpp"
+#include "hal/rig/io_port/io_port.hpp"
+
+namespace twin::hal::rig {
+
+/// Offsets of the PCI-1784 that no source confirms.
+struct Pci1784Layout {
+  std::uint32_t reset = 0x2C;    ///< resets of the counters, enables of the index resets
+  std::uint32_t compare = 0x10;  ///< compare value of counter 0; the others follow
+};
+
+/// BAR2 of a PCI-1784, 64 bytes, over emulated registers.
+///
+/// The offsets 0x00 to 0x0C are the modes when written and the latched counters when read. Writing
+/// 0x28 latches, at one instant, the counters whose bits are set and whose mode has bit 8. Reading
+/// 0x24 clears the interrupt status. Events are kept in the status whether enabled or not; bit 31
+/// is set while one is that is enabled. Registers are dwords, but for the word at 0x32; other
+/// accesses read as all ones, write nothing and are counted.
+class EmulatedPci1784 final : public IoPort {
+ public:
+  /// @param registers that live longer than this
+  explicit EmulatedPci1784(Pci1784Registers& registers, Pci1784Layout layout = {}) noexcept
+      : card_(registers), layout_(layout) {}
+
+  std::uint8_t read8(std::uint32_t offset) noexcept override;
+  std::uint16_t read16(std::uint32_t offset) noexcept override;
+  std::uint32_t read32(std::uint32_t offset) noexcept override;
+  void write8(std::uint32_t offset, std::uint8_t value) noexcept override;
+  void write16(std::uint32_t offset, std::uint16_t value) noexcept override;
+  void write32(std::uint32_t offset, std::uint32_t value) noexcept override;
+  /// Emulated registers can always be reached.
+  int error() const noexcept override { return 0; }
+
+  /// Accesses that no register takes.
+  int rejected() const noexcept { return rejected_; }
+
+ private:
+  bool rejects(std::uint32_t offset) noexcept;
+  std::uint32_t status() const noexcept;
+  void latch(std::uint32_t counters) noexcept;
+  void reset(std::uint32_t value) noexcept;
+
+  Pci1784Registers& card_;
+  Pci1784Layout layout_;
+  int rejected_ = 0;
+};
+
+}  // namespace twin::hal::rig

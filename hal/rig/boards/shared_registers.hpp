@@ -1,0 +1,80 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/error.hpp"
+#include "hal/rig/boards/board_registers.hpp"
+#include "hal/signals.hpp"
+
+namespace twin::hal::rig {
+
+/// What the process of the emulator and that of the controller share.
+struct SharedBlock {
+  std::atomic<std::uint64_t> magic{0};    ///< kSharedMagic once everything else is there
+  std::atomic<std::uint32_t> version{0};  ///< kSharedVersion
+  std::atomic<pid_t> emulator{0};
+  std::atomic<pid_t> controller{0};           ///< 0: none is attached
+  std::atomic<bool> has_ended{false};         ///< the emulator has ended by itself
+  std::atomic<std::int64_t> monotonic_ns{0};  ///< CLOCK_MONOTONIC of the last step [ns]
+  std::atomic<double> plant_time{0.0};        ///< simulated time [s]
+  std::array<std::atomic<double>, kServoAxes> table_position{};  ///< true position [mm]
+  std::atomic<double> pen_reference{0.0};                        ///< by the controller [mm]
+  BoardRegisters boards;
+};
+
+inline constexpr std::uint64_t kSharedMagic = 0x5457494E52494731;  // "TWINRIG1"
+inline constexpr std::uint32_t kSharedVersion = 1;  ///< of SharedBlock; another one is refused
+
+/// Name of the shared memory where none is given: "/twin-rig-UID".
+std::string default_shared_name();
+
+/// What an attached process is.
+enum class SharedRole : std::uint8_t {
+  kController,  ///< drives the rig; one at a time, known to the emulator
+  kObserver,    ///< looks on
+};
+
+/// Registers of emulated boards in POSIX shared memory, mode 0600.
+///
+/// The emulator holds a lock on the memory as long as it lives, which the kernel opens whatever
+/// ends it; so memory that a dead emulator left is told from that of a living one, and taken over.
+/// The memory stays mapped in a process that forks; a child may use it, and removes nothing.
+class SharedRegisters {
+ public:
+  /// Emulator: makes the memory. kMachine error: another emulator has it, or the system refused.
+  /// @param name "/" and letters
+  static Expected<std::unique_ptr<SharedRegisters>> create(const std::string& name);
+  /// Takes part. kMachine error: no emulator has the name, it is dead, of another version, or has a
+  /// controller already.
+  static Expected<std::unique_ptr<SharedRegisters>> attach(const std::string& name,
+                                                           SharedRole role);
+  /// Emulator: cards gone, memory removed. Controller: not attached any more.
+  ~SharedRegisters();
+  SharedRegisters(const SharedRegisters&) = delete;
+  SharedRegisters& operator=(const SharedRegisters&) = delete;
+
+  SharedBlock& block() noexcept { return *block_; }
+  BoardRegisters& boards() noexcept { return block_->boards; }
+
+ private:
+  SharedRegisters(std::string name, int file, SharedBlock* block, pid_t owner) noexcept;
+
+  std::string name_;
+  int file_;
+  SharedBlock* block_;
+  pid_t owner_;  // process that made this
+  bool is_emulator_ = false;
+  bool is_controller_ = false;
+};
+
+/// The process exists and has not ended; one that ended and was not waited for has. Not real-time
+/// safe.
+bool is_running(pid_t process) noexcept;
+
+}  // namespace twin::hal::rig

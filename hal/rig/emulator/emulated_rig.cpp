@@ -1,0 +1,190 @@
+#include "hal/rig/emulator/emulated_rig.hpp"
+
+#include <cstdlib>
+#include <utility>
+
+#include "hal/rig/boards/voltage_range.hpp"
+
+namespace twin::hal::rig {
+namespace {
+
+constexpr std::size_t kEvents = 4096;
+constexpr std::uint64_t kSlipEvery = 4;  // of so many edges one is lost
+
+/// The signal of an output line is given; a line that is not wired never gives it.
+bool is_given(const Line& line, std::uint16_t word) noexcept {
+  const bool is_high = line.channel >= 0 && (word >> line.channel & 1) != 0;
+  return line.channel >= 0 && is_high == (line.when == Level::kHigh);
+}
+
+/// Bit of an input line.
+std::uint16_t bit(const Line& line, bool is_signal_given) noexcept {
+  const bool is_high = is_signal_given == (line.when == Level::kHigh);
+  return line.channel >= 0 && is_high ? static_cast<std::uint16_t>(1U << line.channel)
+                                      : std::uint16_t{0};
+}
+
+}  // namespace
+
+EmulatedRig::EmulatedRig(TableParams table, RigSettings wiring, std::vector<Fault> faults,
+                         BoardRegisters* boards)
+    : table_(std::move(table)),
+      wiring_(std::move(wiring)),
+      faults_(std::move(faults)),
+      own_(boards == nullptr ? std::make_unique<BoardRegisters>() : nullptr),
+      boards_(boards == nullptr ? own_.get() : boards),
+      events_(kEvents) {
+  rig::power_on(*boards_, wiring_.pci1716_board_id, wiring_.pci1784_board_id);
+}
+
+Expected<void> EmulatedRig::power_on(double period) {
+  Expected<std::unique_ptr<TablePlant>> plant = TablePlant::open(table_, period);
+  if (!plant) {
+    return tl::unexpected<Error>(plant.error());
+  }
+  plant_ = std::move(*plant);
+  period_ = period;
+  struck_.assign(faults_.size(), 0);
+  state_.fill(AxisState{});
+  rest_.fill(RestWatch{});
+  digital_out_ = 0;
+  shafts_.clear();
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    shafts_.emplace_back(table_.axis[axis], plant_->encoder_position(axis));
+    origin_[axis] = plant_->position(axis);
+  }
+  rig::power_on(*boards_, wiring_.pci1716_board_id, wiring_.pci1784_board_id);
+  inputs_.emplace(boards_->pci1784);
+  show_inputs();
+  return {};
+}
+
+bool EmulatedRig::advance() noexcept {
+  if (!plant_) {
+    return false;
+  }
+  strike_due_faults();
+  const Pci1716Registers& card = boards_->pci1716;
+  const bool has_power = card.is_present.load();
+  const std::uint16_t digital_out =
+      has_power ? card.digital_out.load(std::memory_order_acquire) : std::uint16_t{0};
+  notice_outputs(digital_out);
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    drive(axis, digital_out);
+  }
+  if (!plant_->advance()) {
+    return false;
+  }
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    notice(axis);
+  }
+  show_counters();
+  show_inputs();
+  show_analogue();
+  return true;
+}
+
+double EmulatedRig::dac_volts(std::size_t axis) const noexcept {
+  const Pci1716Registers& card = boards_->pci1716;
+  if (!card.is_present.load()) {
+    return 0.0;
+  }
+  const int channel = wiring_.axis[axis].dac;
+  return volts(analogue_output_range(card.dac_range.load(), channel),
+               card.dac[static_cast<std::size_t>(channel)].load(std::memory_order_acquire));
+}
+
+void EmulatedRig::drive(std::size_t axis, std::uint16_t digital_out) noexcept {
+  const AxisWiring& wires = wiring_.axis[axis];
+  AxisState& state = state_[axis];
+  const bool has_power = boards_->pci1716.is_present.load();
+  double vref = is_broken(axis, FaultKind::kDacStuck) ? state.stuck_volts : dac_volts(axis);
+  if (wires.vref_reversed != is_broken(axis, FaultKind::kVrefReversed)) {
+    vref = -vref;
+  }
+  state.vref = is_broken(axis, FaultKind::kVrefOpen) ? 0.0 : vref;
+  const bool is_resetting = has_power && is_given(wires.alarm_reset, digital_out);
+  if (is_resetting && !state.is_resetting) {
+    plant_->reset_drive(axis);
+  }
+  state.is_resetting = is_resetting;
+  const bool servo_on = has_power && is_given(wires.servo_on, digital_out) &&
+                        !is_broken(axis, FaultKind::kServoOnLost);
+  plant_->command(axis, state.vref, servo_on);
+}
+
+EncoderMotion EmulatedRig::encoder_motion(std::size_t axis) noexcept {
+  AxisState& state = state_[axis];
+  EncoderMotion motion = shafts_[axis].move_to(plant_->encoder_position(axis));
+  if (is_broken(axis, FaultKind::kEncoderFrozen)) {
+    return {};
+  }
+  if (is_broken(axis, FaultKind::kEncoderSlipping)) {
+    const std::uint64_t before = state.edges_slipped / kSlipEvery;
+    state.edges_slipped += static_cast<std::uint64_t>(std::abs(motion.edges));
+    const auto lost = static_cast<std::int64_t>(state.edges_slipped / kSlipEvery - before);
+    motion.edges -= motion.edges < 0 ? -lost : lost;
+  }
+  motion.edges -= std::exchange(state.edges_to_lose, 0);
+  if (wiring_.axis[axis].encoder_reversed != is_broken(axis, FaultKind::kEncoderSwapped)) {
+    motion.edges = -motion.edges;
+    motion.since_index = -motion.since_index;
+  }
+  return motion;
+}
+
+void EmulatedRig::show_counters() noexcept {
+  std::array<EncoderMotion, 4> motions{};
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    motions[static_cast<std::size_t>(wiring_.axis[axis].counter)] = encoder_motion(axis);
+  }
+  inputs_->move(motions, period_);
+}
+
+void EmulatedRig::show_inputs() noexcept {
+  std::uint16_t word = 0;
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    const AxisWiring& wires = wiring_.axis[axis];
+    if (!is_broken(axis, FaultKind::kWireBroken)) {
+      word |= bit(wires.alarm, plant_->has_alarm(axis));
+    }
+    word |= bit(wires.ready, plant_->is_ready(axis));
+    word |= bit(wires.limit_positive, plant_->is_limit_positive(axis));
+    word |= bit(wires.limit_negative, plant_->is_limit_negative(axis));
+  }
+  boards_->pci1716.digital_in.store(word, std::memory_order_release);
+}
+
+void EmulatedRig::show_analogue() noexcept {
+  auto& seen = boards_->pci1716.analogue_in;
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    const AxisWiring& wires = wiring_.axis[axis];
+    seen[static_cast<std::size_t>(wires.dac)].store(static_cast<float>(
+        is_broken(axis, FaultKind::kDacStuck) ? state_[axis].stuck_volts : dac_volts(axis)));
+  }
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    if (const int channel = wiring_.axis[axis].vref_readback; channel >= 0) {
+      seen[static_cast<std::size_t>(channel)].store(static_cast<float>(state_[axis].vref));
+    }
+  }
+}
+
+Truth EmulatedRig::truth() const noexcept {
+  Truth truth;
+  for (std::size_t axis = 0; plant_ && axis < kServoAxes; ++axis) {
+    truth.table_position[axis] = plant_->position(axis) - origin_[axis];
+  }
+  return truth;
+}
+
+void EmulatedRig::set_pen_reference(double z) noexcept {
+  if (plant_) {
+    plant_->set_pen_reference(z);
+  }
+}
+
+std::string EmulatedRig::last_error() const {
+  return plant_ ? plant_->last_error() : "the emulated rig was used before it was switched on";
+}
+
+}  // namespace twin::hal::rig
