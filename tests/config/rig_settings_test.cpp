@@ -115,8 +115,9 @@ TEST(RigSection, RefusalsNamePlaceValueAndRange) {
             "desk.toml:2:29: rig.y.vref_scale_mm_per_s_per_V = -1 mm/s per V is out of range: 0 to "
             "1000 mm/s per V");
   EXPECT_THAT(refusal("[rig.x]\nservo_on_level = \"up\"\n"), HasSubstr("one of low, high"));
-  EXPECT_THAT(refusal("[rig.x]\nservo_on_d0 = 1\n"),
-              HasSubstr("desk.toml:2:1: unknown key servo_on_d0 in [rig.x]; did you mean servo_on_do?"));
+  EXPECT_THAT(
+      refusal("[rig.x]\nservo_on_d0 = 1\n"),
+      HasSubstr("desk.toml:2:1: unknown key servo_on_d0 in [rig.x]; did you mean servo_on_do?"));
   EXPECT_THAT(refusal("[rig.z]\ndac = 1\n"), HasSubstr("unknown section [rig.z]"));
 }
 

@@ -52,6 +52,8 @@ TEST_F(RigFaults, AWriteThatFailsIsAnError) {
   EXPECT_EQ(machine->write(outputs), Status::kError);
   EXPECT_THAT(machine->last_error(), HasSubstr("the PCI-1716's registers failed"));
   EXPECT_TRUE(is_safe());
+  pci1716.errno_value = EPERM;
+  EXPECT_THAT(machine->last_error(), HasSubstr("kernel lockdown (Secure Boot) may forbid it"));
 }
 
 TEST_F(RigFaults, VoltsThatAreNotFiniteReachNoConverter) {

@@ -20,7 +20,8 @@ TEST(Servopack, HealthyInputsAreNoAlarmAndNoLimit) {
 TEST(Servopack, EachInputIsReadFromItsOwnLine) {
   const Servopack y(default_y_wiring());
   EXPECT_TRUE(y.decode(kHealthy & ~(1 << 4), false).alarm);
-  EXPECT_TRUE(y.decode(kHealthy | (1 << 5), false).ready);
+  EXPECT_TRUE(y.decode(kHealthy | (1 << 5), true).ready);
+  EXPECT_FALSE(y.decode(kHealthy | (1 << 5), false).ready) << "it would take /S-ON";
   EXPECT_TRUE(y.decode(kHealthy & ~(1 << 6), false).limit_positive);
   EXPECT_TRUE(y.decode(kHealthy & ~(1 << 7), false).limit_negative);
   EXPECT_FALSE(y.decode(kHealthy & ~(1 << 0), false).alarm) << "that is X";
@@ -37,7 +38,7 @@ TEST(Servopack, TheLevelOfALineTurnsItsMeaning) {
   AxisWiring wiring;
   wiring.alarm.when = Level::kHigh;
   wiring.ready.when = Level::kLow;
-  const DriveInputs drive = Servopack(wiring).decode(0b1101, false);
+  const DriveInputs drive = Servopack(wiring).decode(0b1101, true);
   EXPECT_TRUE(drive.alarm);
   EXPECT_TRUE(drive.ready);
 }
