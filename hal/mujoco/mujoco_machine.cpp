@@ -12,7 +12,7 @@ MujocoMachine::MujocoMachine(TableParams params) : params_(std::move(params)) {
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     const AxisParams& p = params_.axis[axis];
     info_.mm_per_count[axis] = p.encoder.mm_per_count;
-    info_.mm_per_s_per_volt[axis] = p.drive.vref_scale_rpm_per_V / 60.0 * p.screw.lead;
+    info_.mm_per_s_per_volt[axis] = p.mm_per_s_per_volt();
   }
 }
 

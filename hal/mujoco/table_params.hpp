@@ -71,6 +71,8 @@ struct AxisParams {
 
   /// Travel per radian of the motor [mm/rad].
   double mm_per_rad() const { return screw.lead / (2.0 * std::numbers::pi); }
+  /// V-REF scale as travel, signed [mm/s/V].
+  double mm_per_s_per_volt() const { return drive.vref_scale_rpm_per_V / 60.0 * screw.lead; }
   /// Rotor and slide as seen by the motor, J = J_r + m (lead / 2 pi)^2 [kg m^2].
   double total_inertia() const {
     const double m_per_rad = mm_per_rad() * 1e-3;

@@ -61,7 +61,7 @@ void Pci1716::open() noexcept {
 
 void Pci1716::make_safe() noexcept {
   rig::make_safe(port_, safe_digital_);
-  digital_out_ = safe_digital_;
+  digital_out_.store(safe_digital_, std::memory_order_relaxed);
 }
 
 void Pci1716::set_volts(std::size_t channel, double volts) noexcept {
@@ -70,8 +70,8 @@ void Pci1716::set_volts(std::size_t channel, double volts) noexcept {
 }
 
 void Pci1716::set_digital(std::uint16_t levels) noexcept {
-  if (levels != digital_out_) {
-    digital_out_ = levels;
+  if (levels != digital_out()) {
+    digital_out_.store(levels, std::memory_order_relaxed);
     port_.write16(kDigital, levels);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -47,7 +48,9 @@ class Pci1716 {
   /// Sets the digital outputs; writes only where they change. Real-time safe.
   void set_digital(std::uint16_t levels) noexcept;
   /// Digital outputs as last written.
-  std::uint16_t digital_out() const noexcept { return digital_out_; }
+  std::uint16_t digital_out() const noexcept {
+    return digital_out_.load(std::memory_order_relaxed);
+  }
 
   /// Digital inputs. Real-time safe.
   std::uint16_t digital_in() noexcept;
@@ -65,7 +68,7 @@ class Pci1716 {
   IoPort& port_;
   Dac dac_{16};
   std::uint16_t safe_digital_;
-  std::uint16_t digital_out_;  // what the write-only register holds
+  std::atomic<std::uint16_t> digital_out_;  // what the write-only register holds
 };
 
 }  // namespace twin::hal::rig

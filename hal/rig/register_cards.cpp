@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "hal/rig/servopack.hpp"
@@ -72,9 +74,17 @@ Status RegisterCards::write(const CardOutputs& outputs) noexcept {
   return check_ports();
 }
 
+namespace {
+
+std::string port_text(std::string_view card, int number) {
+  return fmt::format("an access to the {}'s registers failed: {}{}", card, std::strerror(number),
+                     number == EPERM ? "; kernel lockdown (Secure Boot) may forbid it" : "");
+}
+
+}  // namespace
+
 std::string RegisterCards::last_error() const {
   constexpr const char* kGone = "the {} no longer answers: its registers read all ones";
-  constexpr const char* kPort = "an access to the {}'s registers failed: {}";
   switch (fault_) {
     case Fault::kNone:
       return {};
@@ -83,9 +93,9 @@ std::string RegisterCards::last_error() const {
     case Fault::kPci1784Gone:
       return fmt::format(kGone, kPci1784.name);
     case Fault::kPci1716Port:
-      return fmt::format(kPort, kPci1716.name, std::strerror(port_1716_->error()));
+      return port_text(kPci1716.name, port_1716_->error());
     case Fault::kPci1784Port:
-      return fmt::format(kPort, kPci1784.name, std::strerror(port_1784_->error()));
+      return port_text(kPci1784.name, port_1784_->error());
   }
   return {};
 }

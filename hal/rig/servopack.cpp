@@ -43,9 +43,9 @@ std::uint16_t Servopack::with_outputs(bool servo_on, bool alarm_reset,
 }
 
 DriveInputs Servopack::decode(std::uint16_t levels, bool servo_on) const noexcept {
-  return {wiring_.ready.channel < 0 ? servo_on : is_given(wiring_.ready, levels),
-          is_given(wiring_.alarm, levels), is_given(wiring_.limit_positive, levels),
-          is_given(wiring_.limit_negative, levels)};
+  const bool says_ready = wiring_.ready.channel < 0 || is_given(wiring_.ready, levels);
+  return {servo_on && says_ready, is_given(wiring_.alarm, levels),
+          is_given(wiring_.limit_positive, levels), is_given(wiring_.limit_negative, levels)};
 }
 
 double Servopack::mm_per_count(double table) const noexcept {

@@ -18,7 +18,7 @@ std::uint16_t safe_digital(const RigSettings& settings) noexcept;
 
 /// What a drive says.
 struct DriveInputs {
-  bool ready = false;           ///< /S-RDY
+  bool ready = false;           ///< /S-RDY, and the servo is asked to be on
   bool alarm = false;           ///< true: alarm, or a broken wire
   bool limit_positive = false;  ///< true: P-OT reached, or a broken wire
   bool limit_negative = false;  ///< true: N-OT reached, or a broken wire
@@ -40,7 +40,9 @@ class Servopack {
   /// Digital outputs with servo-on and alarm reset of this drive as asked.
   std::uint16_t with_outputs(bool servo_on, bool alarm_reset, std::uint16_t levels) const noexcept;
   /// What the digital inputs say.
-  /// @param servo_on  as last asked; stands in for /S-RDY where that is not wired
+  ///
+  /// Drives may say /S-RDY before /S-ON: that they would take it. So ready needs both here.
+  /// @param servo_on  as last asked; alone where /S-RDY is not wired
   DriveInputs decode(std::uint16_t levels, bool servo_on) const noexcept;
 
   /// Encoder scale, signed [mm/count]. @param table  used where the setting is 0

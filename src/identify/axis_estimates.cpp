@@ -41,7 +41,7 @@ void AxisFitter::estimate_gains() {
   }
   const hal::AxisParams& axis = current_.table.axis[problem_.axis()];
   GainFit gains =
-      fit_gains(problem_.records(), axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead,
+      fit_gains(problem_.records(), axis.mm_per_s_per_volt(),
                 current_.period);
   gains.gains.kp = std::max(gains.gains.kp, 0.0);
   gains.gains.kd = std::max(gains.gains.kd, 0.0);

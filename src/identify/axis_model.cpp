@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kFarAway = 1e5;  // beyond any machine; counts stay inside an integer [mm]
 
-double mm_per_s_per_volt(const hal::AxisParams& axis) {
-  return axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead;
-}
-
 }  // namespace
 
 AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis) {
@@ -28,7 +24,7 @@ AxisModel::AxisModel(const AxisSetup& setup, double start)
     : dac_(setup.axis.dac_bits),
       axis_(setup.axis, setup.period / hal::steps_per_period(setup.period, setup.physics_step)),
       encoder_(setup.axis.encoder),
-      servo_(setup.servo, mm_per_s_per_volt(setup.axis), setup.period),
+      servo_(setup.servo, setup.axis.mm_per_s_per_volt(), setup.period),
       mm_per_count_(setup.axis.encoder.mm_per_count),
       rad_per_mm_(1.0 / setup.axis.mm_per_rad()),
       force_per_torque_(1.0 / units::m_from_mm(setup.axis.mm_per_rad())),

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kUnstable = 1e3;  // residual of a motion that ran away [mm]
 
-double mm_per_s_per_volt(const hal::AxisParams& axis) {
-  return axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead;
-}
-
 /// Drops what is slower than a time constant, and the first value.
 void filter(Eigen::Ref<Eigen::VectorXd> values, double period) {
   const double keep = std::exp(-period / AxisProblem::kForgetting);
@@ -56,7 +52,7 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std:
   }
   AxisModel model(setup, data.command.front().position);
   model.settle(data.command.front().position);
-  servo::AxisServo servo(setup.servo, mm_per_s_per_volt(setup.axis), setup.period);
+  servo::AxisServo servo(setup.servo, setup.axis.mm_per_s_per_volt(), setup.period);
   Eigen::VectorXd result(static_cast<Eigen::Index>(data.measured.size()));
   for (std::size_t k = 0; k < data.measured.size(); ++k) {
     const double volts =

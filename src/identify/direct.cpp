@@ -19,10 +19,6 @@ constexpr std::size_t kPhases = 12;         // that a search for a phase tries i
 constexpr double kPhaseTolerance = 2e-3;    // [rad]
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-double mm_per_s_per_volt(const hal::AxisParams& axis) {
-  return axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead;
-}
-
 /// Least-squares line through evenly spaced values: takes it off, returns its slope per row.
 double take_line(Eigen::VectorXd& values) {
   const auto n = static_cast<double>(values.size());
@@ -74,14 +70,14 @@ double direct_offset(const AxisProblem& problem, const config::MachineFile& mach
     rate += rows * take_line(values) / machine.period;
     weight += rows;
   }
-  return rate / weight / mm_per_s_per_volt(machine.table.axis[problem.axis()]);
+  return rate / weight / machine.table.axis[problem.axis()].mm_per_s_per_volt();
 }
 
 bool direct_hum(AxisProblem& problem, config::MachineFile& machine) {
   hal::DriveParams& drive = machine.table.axis[problem.axis()].drive;
   drive.hum_amplitude = 0.0;
   const double highest = std::min(kHighestHum, kNyquistShare / machine.period);
-  const double scale = mm_per_s_per_volt(machine.table.axis[problem.axis()]);
+  const double scale = machine.table.axis[problem.axis()].mm_per_s_per_volt();
   // Row 0 is read after the time of holding still and one period more.
   const double start = (std::round(kSettleTime / machine.period) + 1.0) * machine.period;
   std::optional<Tone> first;

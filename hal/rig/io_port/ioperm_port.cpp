@@ -17,7 +17,7 @@ namespace twin::hal::rig {
 #if TWIN_HAS_PORT_INSTRUCTIONS
 
 Expected<std::unique_ptr<IopermPort>> IopermPort::open(std::uint32_t base) {
-  if (base == 0 || base + kPorts > 0x10000) {
+  if (base == 0 || base > 0x10000 - kPorts) {
     return fail(ErrorCode::kMachine,
                 fmt::format("{:#x} is no base of a card's I/O ports: 0x1 to {:#x}", base,
                             0x10000 - kPorts));

@@ -45,8 +45,7 @@ Expected<std::unique_ptr<SysfsPort>> SysfsPort::open(const std::string& file) {
   if (errno == EACCES || errno == EPERM) {
     return fail(ErrorCode::kMachine,
                 fmt::format("no permission to open {}: run as root, or give this user read and "
-                            "write permission on it; under kernel lockdown (Secure Boot) neither "
-                            "helps",
+                            "write permission on it",
                             file));
   }
   return fail(ErrorCode::kMachine, fmt::format("cannot open {}: {}", file, std::strerror(errno)));
