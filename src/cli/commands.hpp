@@ -32,5 +32,14 @@ Command add_reproduce(const CommandContext& context);
 Command add_circle(const CommandContext& context);
 Command add_identify(const CommandContext& context);
 Command add_convert(const CommandContext& context);
+Command add_rig(const CommandContext& context);
+
+// Below `twin rig`.
+Command add_rig_probe(const CommandContext& context);
+Command add_rig_monitor(const CommandContext& context);
+Command add_rig_check(const CommandContext& context);
+Command add_rig_jog(const CommandContext& context);
+Command add_rig_home(const CommandContext& context);
+Command add_rig_emulate(const CommandContext& context);
 
 }  // namespace twin::cli

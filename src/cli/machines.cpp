@@ -1,5 +1,6 @@
 #include "cli/machines.hpp"
 
+#include "cli/rig_machines.hpp"
 #include "hal/ideal/ideal_machine.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 
@@ -11,6 +12,18 @@ std::unique_ptr<hal::Machine> make_machine(const std::string& hal,
     return std::make_unique<hal::IdealMachine>();
   }
   return std::make_unique<hal::MujocoMachine>(machine.table);
+}
+
+Expected<std::unique_ptr<hal::Machine>> open_machine(const Options& options,
+                                                     const config::MachineFile& machine,
+                                                     const std::string& what) {
+  if (options.hal != "rig") {
+    return make_machine(options.hal, machine);
+  }
+  return open_rig(options, machine, what)
+      .map([](std::unique_ptr<hal::rig::RigMachine> rig) -> std::unique_ptr<hal::Machine> {
+        return rig;
+      });
 }
 
 }  // namespace twin::cli

@@ -1,5 +1,7 @@
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
+
 #include "config/find_file.hpp"
 #include "core/units.hpp"
 
@@ -44,13 +46,48 @@ void add_interpolator_option(CLI::App& command, Options& options) {
       ->type_name("NAME");
 }
 
-void add_hal_option(CLI::App& command, Options& options) {
+void add_hal_option(CLI::App& command, Options& options, bool has_rig) {
+  std::vector<std::string> names{"mujoco", "ideal"};
+  if (has_rig) {
+    names.emplace_back("rig");
+  }
   command
       .add_option("--hal", options.hal,
-                  "Machine: mujoco is the simulated table, ideal has position = set point")
-      ->check(CLI::IsMember({"mujoco", "ideal"}))
+                  fmt::format("Machine: mujoco is the simulated table, ideal has position = set "
+                              "point{}",
+                              has_rig ? ", rig is the real one or its emulation" : ""))
+      ->check(CLI::IsMember(names))
       ->type_name("NAME")
       ->capture_default_str();
+}
+
+void add_rig_options(CLI::App& command, Options& options, bool can_move) {
+  command
+      .add_option("--rig", options.rig,
+                  "Which rig: cards are the real ones, process is a running `twin rig emulate`, "
+                  "emulated is in this process and in simulated time, auto is cards or process")
+      ->check(CLI::IsMember({"auto", "cards", "process", "emulated"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--rig-name", options.rig_name,
+                  "Shared memory of the emulator's process [/twin-rig-UID]")
+      ->type_name("/NAME");
+  if (!can_move) {
+    return;
+  }
+  command.add_flag("--i-know-it-moves", options.i_know_it_moves,
+                   "Let a real machine move without asking");
+  command
+      .add_option("--fault", options.faults,
+                  "Break something of the emulated rig, as in --fault alarm:x@1.5 (repeatable)")
+      ->type_name("KIND[:AXIS]@SECONDS")
+      ->take_all()
+      ->expected(1);
+  command
+      .add_option("--rig-log", options.rig_log,
+                  "Write what happens at the boards of --rig emulated to this file")
+      ->type_name("FILE");
 }
 
 void add_result_options(CLI::App& command, Options& options, const std::string& folder) {

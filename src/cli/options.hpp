@@ -23,7 +23,15 @@ struct Options {
   std::filesystem::path out;          ///< folder of the results; empty: renders/NAME
   std::string dialect;                ///< of convert; then `out` is a file
   std::string camera = "iso";
-  int repeats = 10;  ///< of the runs of reproduce, with other phases
+  std::string rig = "auto";         ///< which rig --hal rig means
+  std::string rig_name;             ///< of the emulator's shared memory; empty: the user's own
+  std::filesystem::path rig_log;    ///< events at the emulated boards; empty: none
+  std::vector<std::string> faults;  ///< injected into emulated boards: KIND[:AXIS]@SECONDS
+  bool i_know_it_moves = false;
+  std::string axis;             ///< x or y, of rig jog and rig home
+  double distance_mm = 0.0;     ///< of rig jog
+  std::optional<double> for_s;  ///< how long rig monitor and rig emulate run
+  int repeats = 10;             ///< of the runs of reproduce, with other phases
   bool video = false;
   bool no_plots = false;
   bool realtime = false;
@@ -39,8 +47,10 @@ void add_feedrate_option(CLI::App& command, Options& options,
 void add_machine_options(CLI::App& command, Options& options);
 /// --interpolator.
 void add_interpolator_option(CLI::App& command, Options& options);
-/// --hal.
-void add_hal_option(CLI::App& command, Options& options);
+/// --hal. @param has_rig  whether the rig is among the choices
+void add_hal_option(CLI::App& command, Options& options, bool has_rig = false);
+/// --rig, --rig-name, and with motion --i-know-it-moves, --fault, --rig-log.
+void add_rig_options(CLI::App& command, Options& options, bool can_move);
 /// --out, --no-plots, --quiet. @param folder  below renders, where results go without --out
 void add_result_options(CLI::App& command, Options& options, const std::string& folder = "PROGRAM");
 /// --video and --camera.

@@ -1,0 +1,27 @@
+#include "hal/rig/rig_view.hpp"
+
+#include "hal/rig/pci1716.hpp"
+#include "hal/rig/pci1784.hpp"
+
+namespace twin::hal::rig {
+
+RigView look_at_rig(IoPort& pci1716, IoPort& pci1784, const RigSettings& settings) {
+  Pci1716 analogue(pci1716, safe_digital(settings));
+  Pci1784 counters(pci1784, settings);
+  RigView view;
+  view.board_id_1716 = analogue.is_gone() ? -1 : analogue.board_id();
+  view.digital = analogue.digital_in();
+  std::array<std::int64_t, kCounters> counts{};
+  view.board_id_1784 = counters.read(counts) ? counters.board_id() : -1;
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    const AxisWiring& wiring = settings.axis[axis];
+    view.counts[axis] = counts[static_cast<std::size_t>(wiring.counter)];
+    view.drives[axis] = Servopack(wiring).decode(view.digital, false);
+    if (wiring.vref_readback >= 0) {
+      view.vref[axis] = analogue.read_volts(wiring.vref_readback);
+    }
+  }
+  return view;
+}
+
+}  // namespace twin::hal::rig

@@ -1,0 +1,254 @@
+#include "cli/rig_machines.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "cli/confirmation.hpp"
+#include "core/atomic_file.hpp"
+#include "hal/rig/boards/emulated_pci1716.hpp"
+#include "hal/rig/boards/emulated_pci1784.hpp"
+#include "hal/rig/boards/shared_registers.hpp"
+#include "hal/rig/daqnavi_library.hpp"
+#include "hal/rig/emergency.hpp"
+#include "hal/rig/emulator/emulated_rig.hpp"
+#include "hal/rig/emulator/shared_bench.hpp"
+#include "hal/rig/guard/guard_process.hpp"
+#include "hal/rig/open_cards.hpp"
+#include "hal/rig/register_cards.hpp"
+#include "hal/rig/servopack.hpp"
+
+namespace twin::cli {
+namespace {
+
+namespace rig = hal::rig;
+
+rig::TableScales scales_of(const hal::TableParams& table) {
+  rig::TableScales scales;
+  for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
+    scales.mm_per_count[axis] = table.axis[axis].encoder.mm_per_count;
+    scales.mm_per_s_per_volt[axis] = table.axis[axis].mm_per_s_per_volt();
+  }
+  return scales;
+}
+
+Expected<std::unique_ptr<rig::Cards>> open_boards(rig::BoardRegisters& boards,
+                                                  const rig::RigSettings& settings) {
+  return rig::RegisterCards::open(std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
+                                  std::make_unique<rig::EmulatedPci1784>(boards.pci1784), settings);
+}
+
+/// What happened at the boards, when all is over.
+void write_log(rig::EmulatedRig& emulated, const std::filesystem::path& file) {
+  if (file.empty()) {
+    return;
+  }
+  std::string text;
+  const rig::EventLog& events = emulated.events();
+  for (std::size_t i = events.first(); i < events.written(); ++i) {
+    text += to_string(events[i]) + '\n';
+  }
+  if (auto written = write_whole_file(file, text); !written) {
+    fmt::print(stderr, "twin: {}\n", to_string(written.error()));
+  }
+}
+
+/// The guard stands beside the program.
+std::filesystem::path guard_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "twin-guard";
+}
+
+rig::GuardTarget guard_target(const rig::RigSettings& settings, std::string outputs) {
+  rig::GuardTarget target;
+  target.program = guard_program();
+  target.outputs = std::move(outputs);
+  target.safe_digital = rig::safe_digital(settings);
+  return target;
+}
+
+/// Where the guard finds the outputs of the real cards.
+Expected<std::string> outputs_of_cards(const rig::RigSettings& settings) {
+  if (settings.driver == rig::Driver::kDaqnavi) {
+    return fmt::format("daqnavi:{}:{}", settings.daqnavi_library, settings.pci1716_board_id);
+  }
+  return rig::find_cards(settings).map(
+      [](const rig::CardsFound& found) { return to_text(found.pci1716.port); });
+}
+
+std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machine) {
+  auto guard = std::make_shared<rig::GuardProcess>();
+  const rig::RigSettings& settings = machine.rig;
+  const auto open = [guard, settings] {
+    return outputs_of_cards(settings)
+        .and_then([&](const std::string& outputs) {
+          return guard->start(guard_target(settings, outputs));
+        })
+        .and_then([&] { return rig::open_cards(settings); });
+  };
+  return std::make_unique<rig::RigMachine>(settings, scales_of(machine.table), open, nullptr,
+                                           guard.get());
+}
+
+Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& options,
+                                                            const config::MachineFile& machine) {
+  auto attached = rig::SharedRegisters::attach(options.rig_name, rig::SharedRole::kController);
+  if (!attached) {
+    return tl::unexpected(attached.error());
+  }
+  const std::shared_ptr<rig::SharedRegisters> shared = std::move(*attached);
+  auto guard = std::make_shared<rig::GuardProcess>();
+  const rig::RigSettings& settings = machine.rig;
+  const auto open = [guard, shared, settings, name = options.rig_name] {
+    return guard->start(guard_target(settings, "shared:" + name)).and_then([&] {
+      return open_boards(shared->boards(), settings);
+    });
+  };
+  return std::make_unique<rig::RigMachine>(settings, scales_of(machine.table), open,
+                                           std::make_shared<rig::SharedBench>(shared), guard.get());
+}
+
+Expected<std::unique_ptr<rig::RigMachine>> make_emulated_rig(const Options& options,
+                                                             const config::MachineFile& machine) {
+  std::vector<rig::Fault> faults;
+  for (const std::string& text : options.faults) {
+    auto fault = rig::parse_fault(text);
+    if (!fault) {
+      return tl::unexpected(fault.error());
+    }
+    faults.push_back(*fault);
+  }
+  const std::shared_ptr<rig::EmulatedRig> bench(
+      new rig::EmulatedRig(machine.table, machine.rig, std::move(faults)),
+      [log = options.rig_log](rig::EmulatedRig* emulated) {
+        write_log(*emulated, log);
+        delete emulated;
+      });
+  const auto open = [bench, settings = machine.rig] {
+    return open_boards(bench->boards(), settings);
+  };
+  return std::make_unique<rig::RigMachine>(machine.rig, scales_of(machine.table), open, bench);
+}
+
+/// Whether the real cards can be driven: nothing, or what is missing.
+Expected<void> look_for_real_cards(const rig::RigSettings& settings) {
+  if (settings.driver == rig::Driver::kDaqnavi) {
+    return rig::DaqnaviLibrary::load(settings.daqnavi_library).map([](const auto&) {});
+  }
+  return rig::find_cards(settings).map([](const auto&) {});
+}
+
+}  // namespace
+
+Expected<RigKind> find_rig(const Options& options, const config::MachineFile& machine) {
+  if (options.rig == "emulated") {
+    return RigKind::kEmulated;
+  }
+  if (options.rig == "process") {
+    return RigKind::kProcess;
+  }
+  auto cards = look_for_real_cards(machine.rig);
+  const bool has_process =
+      options.rig == "auto" &&
+      rig::SharedRegisters::attach(options.rig_name, rig::SharedRole::kObserver).has_value();
+  if (cards && has_process) {
+    return fail(ErrorCode::kUsage,
+                "there are real cards and an emulator's process: say --rig cards or --rig process");
+  }
+  if (cards) {
+    return RigKind::kCards;
+  }
+  if (has_process) {
+    return RigKind::kProcess;
+  }
+  if (options.rig == "auto") {
+    cards.error().message +=
+        fmt::format("; nor does an emulator run (twin rig emulate, {})", options.rig_name);
+  }
+  return tl::unexpected(cards.error());
+}
+
+Expected<std::unique_ptr<rig::RigMachine>> make_rig(RigKind kind, const Options& options,
+                                                    const config::MachineFile& machine) {
+  rig::install_emergency_handlers();
+  switch (kind) {
+    case RigKind::kCards:
+      return make_real_rig(machine);
+    case RigKind::kProcess:
+      return make_process_rig(options, machine);
+    case RigKind::kEmulated:
+      break;
+  }
+  return make_emulated_rig(options, machine);
+}
+
+Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
+                                                    const config::MachineFile& machine,
+                                                    const std::string& what) {
+  const auto kind = find_rig(options, machine);
+  if (!kind) {
+    return tl::unexpected(kind.error());
+  }
+  auto opened = make_rig(*kind, options, machine);
+  if (opened) {
+    auto confirmed = confirm_motion((*opened)->info(), options.i_know_it_moves, what);
+    if (!confirmed) {
+      return tl::unexpected(std::move(confirmed.error()));
+    }
+  }
+  return opened;
+}
+
+Expected<RigPorts> open_ports(RigKind kind, const Options& options,
+                              const config::MachineFile& machine) {
+  const auto of_boards = [](std::shared_ptr<void> owner, rig::BoardRegisters& boards) {
+    return RigPorts{std::move(owner), std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
+                    std::make_unique<rig::EmulatedPci1784>(boards.pci1784)};
+  };
+  if (kind == RigKind::kProcess) {
+    return rig::SharedRegisters::attach(options.rig_name, rig::SharedRole::kObserver)
+        .map([&](std::shared_ptr<rig::SharedRegisters> shared) {
+          return of_boards(shared, shared->boards());
+        });
+  }
+  if (kind == RigKind::kEmulated) {
+    const auto bench = std::make_shared<rig::EmulatedRig>(machine.table, machine.rig);
+    return bench->power_on(machine.period).map([&] {
+      bench->advance();
+      return of_boards(bench, bench->boards());
+    });
+  }
+  const auto found = rig::find_cards(machine.rig);
+  if (!found) {
+    return tl::unexpected(found.error());
+  }
+  RigPorts ports;
+  for (const auto& [card, port] :
+       {std::pair(&found->pci1716, &ports.pci1716), std::pair(&found->pci1784, &ports.pci1784)}) {
+    auto opened = rig::open_port(card->port);
+    if (!opened) {
+      return tl::unexpected(std::move(opened.error()));
+    }
+    *port = std::move(*opened);
+  }
+  return ports;
+}
+
+hal::MachineInfo machine_info(const config::MachineFile& machine) {
+  return rig::RigMachine(machine.rig, scales_of(machine.table), {}).info();
+}
+
+std::string describe(RigKind kind) {
+  switch (kind) {
+    case RigKind::kCards:
+      return "real cards";
+    case RigKind::kProcess:
+      return "emulated boards of another process (simulated)";
+    case RigKind::kEmulated:
+      break;
+  }
+  return "emulated boards (simulated)";
+}
+
+}  // namespace twin::cli
