@@ -33,13 +33,21 @@ class Shared : public ::testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
+  static Expected<std::unique_ptr<SharedRegisters>> create_published(const std::string& name) {
+    auto shared = SharedRegisters::create(name);
+    if (shared) {
+      (*shared)->publish();
+    }
+    return shared;
+  }
+
   const std::string name =
       fmt::format("/twin-test-{}-{}", ::getpid(),
                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(Shared, BothSidesSeeTheSameRegisters) {
-  const auto emulator = SharedRegisters::create(name);
+  const auto emulator = create_published(name);
   ASSERT_TRUE(emulator) << to_string(emulator.error());
   const auto controller = SharedRegisters::attach(name, SharedRole::kController);
   ASSERT_TRUE(controller) << to_string(controller.error());
@@ -49,7 +57,7 @@ TEST_F(Shared, BothSidesSeeTheSameRegisters) {
 }
 
 TEST_F(Shared, OnlyTheUserMayOpenIt) {
-  const auto emulator = SharedRegisters::create(name);
+  const auto emulator = create_published(name);
   ASSERT_TRUE(emulator);
   struct stat status {};
   ASSERT_EQ(::stat(("/dev/shm" + name).c_str(), &status), 0);
@@ -57,9 +65,9 @@ TEST_F(Shared, OnlyTheUserMayOpenIt) {
 }
 
 TEST_F(Shared, ThereIsOneEmulatorOfAName) {
-  const auto emulator = SharedRegisters::create(name);
+  const auto emulator = create_published(name);
   ASSERT_TRUE(emulator);
-  const auto other = SharedRegisters::create(name);
+  const auto other = create_published(name);
   ASSERT_FALSE(other);
   EXPECT_THAT(other.error().message, HasSubstr(fmt::format("process {}", ::getpid())));
 }
@@ -73,18 +81,25 @@ TEST_F(Shared, WithoutAnEmulatorTheMessageSaysHowToStartOne) {
 }
 
 TEST_F(Shared, WhatADeadEmulatorLeftIsRefusedAndTakenOverByTheNextOne) {
-  ASSERT_EQ(in_child([this] { return SharedRegisters::create(name).value().release() ? 0 : 1; }),
-            0);
+  ASSERT_EQ(in_child([this] { return create_published(name).value().release() ? 0 : 1; }), 0);
   const auto controller = SharedRegisters::attach(name, SharedRole::kController);
   ASSERT_FALSE(controller);
   EXPECT_THAT(controller.error().message, HasSubstr("is dead"));
-  const auto emulator = SharedRegisters::create(name);
+  const auto emulator = create_published(name);
   ASSERT_TRUE(emulator) << to_string(emulator.error());
   EXPECT_EQ((*emulator)->block().emulator.load(), ::getpid());
 }
 
-TEST_F(Shared, AnotherVersionIsRefused) {
+TEST_F(Shared, NobodyAttachesBeforeTheCardsAreOn) {
   const auto emulator = SharedRegisters::create(name);
+  ASSERT_TRUE(emulator);
+  const auto controller = SharedRegisters::attach(name, SharedRole::kController);
+  ASSERT_FALSE(controller);
+  EXPECT_THAT(controller.error().message, HasSubstr("is still starting"));
+}
+
+TEST_F(Shared, AnotherVersionIsRefused) {
+  const auto emulator = create_published(name);
   ASSERT_TRUE(emulator);
   (*emulator)->block().version.store(kSharedVersion + 1);
   const auto controller = SharedRegisters::attach(name, SharedRole::kController);
@@ -99,11 +114,11 @@ TEST_F(Shared, AnotherSizeIsRefused) {
   ::close(file);
   const auto controller = SharedRegisters::attach(name, SharedRole::kController);
   ASSERT_FALSE(controller);
-  EXPECT_THAT(controller.error().message, HasSubstr("another version"));
+  EXPECT_THAT(controller.error().message, HasSubstr("not that of this version"));
 }
 
 TEST_F(Shared, TheEndOfTheEmulatorTakesTheCardsAndTheMemoryAway) {
-  auto emulator = SharedRegisters::create(name);
+  auto emulator = create_published(name);
   ASSERT_TRUE(emulator);
   const auto controller = SharedRegisters::attach(name, SharedRole::kController);
   ASSERT_TRUE(controller);
@@ -117,7 +132,7 @@ TEST_F(Shared, AKilledEmulatorLeavesItsRegistersAsTheyWere) {
   ASSERT_EQ(::mkfifo(("/tmp" + name).c_str(), 0600), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    auto emulator = SharedRegisters::create(name);
+    auto emulator = create_published(name);
     (*emulator)->boards().pci1716.digital_in.store(0x1234);
     ::close(::open(("/tmp" + name).c_str(), O_WRONLY));
     ::pause();
@@ -135,7 +150,7 @@ TEST_F(Shared, AKilledEmulatorLeavesItsRegistersAsTheyWere) {
 }
 
 TEST_F(Shared, ThereIsOneControllerAtATimeAndADeadOneGivesWay) {
-  const auto emulator = SharedRegisters::create(name);
+  const auto emulator = create_published(name);
   ASSERT_TRUE(emulator);
   ASSERT_EQ(in_child([this] {
               return SharedRegisters::attach(name, SharedRole::kController).value().release() ? 0

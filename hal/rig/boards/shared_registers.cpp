@@ -95,8 +95,8 @@ int lock_new(const std::string& name) noexcept {
 Expected<void> check_block(const std::string& name, int file) {
   if (size_of(file) != static_cast<off_t>(sizeof(SharedBlock))) {
     return fail(ErrorCode::kMachine,
-                fmt::format("shared memory {} is of another version of this program, or its "
-                            "emulator has not finished to start: {} bytes in place of {}",
+                fmt::format("shared memory {} is not that of this version of the program: "
+                            "{} bytes in place of {}",
                             name, size_of(file), sizeof(SharedBlock)));
   }
   if (::flock(file, LOCK_SH | LOCK_NB) == 0) {  // nobody holds it
@@ -111,6 +111,11 @@ Expected<void> check_block(const std::string& name, int file) {
 Expected<void> check_version(const std::string& name, const SharedBlock& block) {
   const std::uint64_t magic = block.magic.load(std::memory_order_acquire);
   const std::uint32_t version = block.version.load();
+  if (magic == 0) {
+    return fail(ErrorCode::kMachine,
+                fmt::format("the emulator of shared memory {}, process {}, is still starting", name,
+                            block.emulator.load()));
+  }
   if (magic != kSharedMagic || version != kSharedVersion) {
     return fail(ErrorCode::kMachine,
                 fmt::format("shared memory {} is not that of this program: magic {:x}, version {} "
@@ -170,7 +175,6 @@ Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::create(const std::st
   new (block) SharedBlock;
   block->version.store(kSharedVersion);
   block->emulator.store(::getpid());
-  block->magic.store(kSharedMagic, std::memory_order_release);
   std::unique_ptr<SharedRegisters> shared(
       new SharedRegisters(name, file.release(), block, ::getpid()));
   shared->is_emulator_ = true;

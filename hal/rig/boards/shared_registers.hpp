@@ -16,7 +16,7 @@ namespace twin::hal::rig {
 
 /// What the process of the emulator and that of the controller share.
 struct SharedBlock {
-  std::atomic<std::uint64_t> magic{0};    ///< kSharedMagic once everything else is there
+  std::atomic<std::uint64_t> magic{0};    ///< kSharedMagic once published
   std::atomic<std::uint32_t> version{0};  ///< kSharedVersion
   std::atomic<pid_t> emulator{0};
   std::atomic<pid_t> controller{0};           ///< 0: none is attached
@@ -47,7 +47,8 @@ enum class SharedRole : std::uint8_t {
 /// The memory stays mapped in a process that forks; a child may use it, and removes nothing.
 class SharedRegisters {
  public:
-  /// Emulator: makes the memory. kMachine error: another emulator has it, or the system refused.
+  /// Emulator: makes the memory, which nobody can attach to before publish(). kMachine error:
+  /// another emulator has it, or the system refused.
   /// @param name "/" and letters
   static Expected<std::unique_ptr<SharedRegisters>> create(const std::string& name);
   /// Takes part. kMachine error: no emulator has the name, it is dead, of another version, or has a
@@ -58,6 +59,9 @@ class SharedRegisters {
   ~SharedRegisters();
   SharedRegisters(const SharedRegisters&) = delete;
   SharedRegisters& operator=(const SharedRegisters&) = delete;
+
+  /// Emulator: the registers are those of cards that are switched on; controllers may come.
+  void publish() noexcept { block_->magic.store(kSharedMagic, std::memory_order_release); }
 
   SharedBlock& block() noexcept { return *block_; }
   BoardRegisters& boards() noexcept { return block_->boards; }

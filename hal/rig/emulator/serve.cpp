@@ -1,0 +1,172 @@
+#include "hal/rig/emulator/serve.hpp"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <time.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "hal/rig/boards/shared_registers.hpp"
+#include "hal/rig/emulator/emulated_rig.hpp"
+
+namespace twin::hal::rig {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+constexpr std::int64_t kMostBehind = 20'000'000;      // caught up with at most [ns]
+constexpr std::int64_t kControllerCheck = 1'000'000;  // between looks at the controller [ns]
+
+std::int64_t nanoseconds(double seconds) noexcept {
+  return std::llround(seconds * static_cast<double>(kNsPerS));
+}
+
+void sleep_until(std::int64_t time) noexcept {
+  const timespec until{time / kNsPerS, time % kNsPerS};
+  ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+}
+
+/// The process of the emulator: plant, registers and clock.
+class Server {
+ public:
+  Server(std::unique_ptr<SharedRegisters> shared, const TableParams& table,
+         const RigSettings& wiring, const ServeSettings& settings,
+         const std::function<void(std::string_view)>& tell)
+      : shared_(std::move(shared)),
+        rig_(table, wiring, settings.faults, &shared_->boards()),
+        tell_(tell),
+        step_(settings.step),
+        step_ns_(nanoseconds(settings.step)) {}
+
+  Expected<ServeResult> run(std::optional<double> duration, const std::atomic<bool>& stop);
+
+ private:
+  Expected<void> advance(std::int64_t now);
+  void watch_controller(std::int64_t now);
+  void add(EventKind kind, std::int64_t value);
+  void tell_events();
+  void leave_out(std::int64_t nanoseconds_behind);
+
+  std::unique_ptr<SharedRegisters> shared_;
+  EmulatedRig rig_;
+  const std::function<void(std::string_view)>& tell_;
+  double step_;                 // [s]
+  std::int64_t step_ns_;        // [ns]
+  std::int64_t next_ = 0;       // when the next step is due [ns]
+  std::int64_t next_look_ = 0;  // when to look at the controller [ns]
+  pid_t controller_ = 0;        // 0: none
+  std::size_t told_ = 0;        // events
+  ServeResult result_;
+};
+
+void Server::add(EventKind kind, std::int64_t value) {
+  rig_.events().add({kind, 0, value, rig_.time(), monotonic_ns()});
+}
+
+void Server::tell_events() {
+  EventLog& events = rig_.events();
+  if (told_ < events.first()) {
+    result_.unread_events += events.first() - told_;
+    told_ = events.first();
+  }
+  for (; told_ < events.written(); ++told_) {
+    tell_(to_string(events[told_]));
+  }
+}
+
+void Server::watch_controller(std::int64_t now) {
+  if (now < next_look_) {
+    return;
+  }
+  next_look_ = now + kControllerCheck;
+  const pid_t attached = shared_->block().controller.load();
+  if (attached != controller_ && controller_ != 0) {
+    add(is_running(controller_) || attached == 0 ? EventKind::kControllerLeft
+                                                 : EventKind::kControllerDied,
+        controller_);
+    controller_ = 0;
+  }
+  if (attached != 0 && attached != controller_) {
+    controller_ = attached;
+    add(EventKind::kControllerJoined, attached);
+  }
+  if (controller_ != 0 && !is_running(controller_)) {
+    add(EventKind::kControllerDied, controller_);
+    pid_t dead = std::exchange(controller_, 0);
+    shared_->block().controller.compare_exchange_strong(dead, 0);
+  }
+}
+
+Expected<void> Server::advance(std::int64_t now) {
+  SharedBlock& block = shared_->block();
+  rig_.set_pen_reference(block.pen_reference.load(std::memory_order_relaxed));
+  if (!rig_.advance()) {
+    return fail(ErrorCode::kMachine, rig_.last_error());
+  }
+  const Truth truth = rig_.truth();
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    block.table_position[axis].store(truth.table_position[axis], std::memory_order_relaxed);
+  }
+  block.plant_time.store(rig_.time(), std::memory_order_relaxed);
+  block.monotonic_ns.store(now, std::memory_order_relaxed);
+  ++result_.steps;
+  result_.late_steps += now - next_ > step_ns_ ? 1 : 0;
+  next_ += step_ns_;
+  return {};
+}
+
+void Server::leave_out(std::int64_t nanoseconds_behind) {
+  const std::int64_t steps = nanoseconds_behind / step_ns_;
+  next_ += steps * step_ns_;
+  result_.left_out += static_cast<double>(steps) * step_;
+  add(EventKind::kFellBehind, steps * step_ns_ / 1'000'000);
+}
+
+Expected<ServeResult> Server::run(std::optional<double> duration, const std::atomic<bool>& stop) {
+  if (Expected<void> on = rig_.power_on(step_); !on) {
+    return tl::unexpected<Error>(on.error());
+  }
+  shared_->publish();
+  const std::int64_t start = monotonic_ns();
+  next_ = start + step_ns_;
+  while (!stop.load() && (!duration || next_ - start <= nanoseconds(*duration))) {
+    sleep_until(next_);
+    const std::int64_t now = monotonic_ns();
+    if (now < next_) {
+      continue;  // a signal
+    }
+    if (now - next_ > kMostBehind) {
+      leave_out(now - next_ - kMostBehind);
+    }
+    if (Expected<void> passed = advance(now); !passed) {
+      tell_events();
+      return tl::unexpected<Error>(passed.error());
+    }
+    watch_controller(now);
+    tell_events();
+  }
+  result_.plant_time = rig_.time();
+  result_.lost_edges = rig_.lost_edges();
+  return result_;
+}
+
+}  // namespace
+
+Expected<ServeResult> serve(const TableParams& table, const RigSettings& wiring,
+                            const ServeSettings& settings, const std::atomic<bool>& stop,
+                            const std::function<void(std::string_view)>& tell) {
+  if (!(settings.step >= 1e-5 && settings.step <= 0.1)) {
+    return fail(ErrorCode::kUsage,
+                fmt::format("step {} s of the emulator is outside 0.00001 to 0.1", settings.step));
+  }
+  ::prctl(PR_SET_TIMERSLACK, 1UL);  // the default lets sleeps end 50 us late
+  Expected<std::unique_ptr<SharedRegisters>> shared =
+      SharedRegisters::create(settings.name.empty() ? default_shared_name() : settings.name);
+  if (!shared) {
+    return tl::unexpected<Error>(shared.error());
+  }
+  return Server(std::move(*shared), table, wiring, settings, tell).run(settings.duration, stop);
+}
+
+}  // namespace twin::hal::rig
