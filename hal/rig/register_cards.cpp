@@ -10,6 +10,18 @@
 #include "hal/rig/servopack.hpp"
 
 namespace twin::hal::rig {
+namespace {
+
+std::string gone_text(std::string_view card) {
+  return fmt::format("the {} no longer answers: its registers read all ones", card);
+}
+
+std::string port_text(std::string_view card, int number) {
+  return fmt::format("an access to the {}'s registers failed: {}{}", card, std::strerror(number),
+                     number == EPERM ? "; kernel lockdown (Secure Boot) may forbid it" : "");
+}
+
+}  // namespace
 
 RegisterCards::RegisterCards(std::unique_ptr<IoPort> pci1716, std::unique_ptr<IoPort> pci1784,
                              const RigSettings& settings)
@@ -74,24 +86,14 @@ Status RegisterCards::write(const CardOutputs& outputs) noexcept {
   return check_ports();
 }
 
-namespace {
-
-std::string port_text(std::string_view card, int number) {
-  return fmt::format("an access to the {}'s registers failed: {}{}", card, std::strerror(number),
-                     number == EPERM ? "; kernel lockdown (Secure Boot) may forbid it" : "");
-}
-
-}  // namespace
-
 std::string RegisterCards::last_error() const {
-  constexpr const char* kGone = "the {} no longer answers: its registers read all ones";
   switch (fault_) {
     case Fault::kNone:
       return {};
     case Fault::kPci1716Gone:
-      return fmt::format(kGone, kPci1716.name);
+      return gone_text(kPci1716.name);
     case Fault::kPci1784Gone:
-      return fmt::format(kGone, kPci1784.name);
+      return gone_text(kPci1784.name);
     case Fault::kPci1716Port:
       return port_text(kPci1716.name, port_1716_->error());
     case Fault::kPci1784Port:

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -42,7 +43,8 @@ Expected<void> RigMachine::fetch(CardInputs& inputs) {
 
 // Lets time pass on the wall clock and, where time is the bench's own, there too.
 Expected<void> RigMachine::wait(double time) {
-  for (double passed = 0.0; passed < time; passed += period_) {
+  const auto periods = std::max(1L, std::lround(time / period_));
+  for (long i = 0; i < periods; ++i) {
     if (bench_ != nullptr && !bench_->advance()) {
       return fail(ErrorCode::kMachine, bench_->last_error());
     }

@@ -46,11 +46,15 @@ Expected<void> prepare_folder(const fs::path& folder) {
 Expected<SenseRun> run_sense(const CircleTest& test, circular::Sense sense, const Options& options,
                              const std::atomic<bool>& stop) {
   const std::string name(circular::short_name(sense));
-  const auto hal = make_machine(options.hal, test.machine);
+  const auto hal = open_machine(options, test.machine, "circle");
+  if (!hal) {
+    return tl::unexpected(hal.error());
+  }
   runtime::RunRequest request;
   request.program = test.folder / fmt::format("circle_{}.nc", name);
   request.machine = test.machine;
-  request.hal = hal.get();
+  request.hal = hal->get();
+  request.is_wall_clock = (*hal)->info().keeps_own_time;
   request.directory = test.folder / name;
   request.stop = &stop;
   if (auto written = write_whole_file(request.program,
@@ -181,7 +185,8 @@ Command add_circle(const CommandContext& context) {
   add_feedrate_option(*app, options, "Feedrate [3000]");
   add_machine_options(*app, options);
   add_interpolator_option(*app, options);
-  add_hal_option(*app, options);
+  add_hal_option(*app, options, true);
+  add_rig_options(*app, options, true);
   add_result_options(*app, options, "circle");
   return {app, [&options, &stop = context.stop] { return circle_command(options, stop); }};
 }

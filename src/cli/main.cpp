@@ -50,7 +50,8 @@ int main(int argc, char** argv) try {
   const CommandContext context{app, options, stop_requested};
   const std::array commands{add_run(context),    add_plan(context),     add_check(context),
                             add_render(context), add_compare(context),  add_reproduce(context),
-                            add_circle(context), add_identify(context), add_convert(context)};
+                            add_circle(context), add_identify(context), add_convert(context),
+                            add_rig(context)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

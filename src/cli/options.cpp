@@ -78,16 +78,27 @@ void add_rig_options(CLI::App& command, Options& options, bool can_move) {
   }
   command.add_flag("--i-know-it-moves", options.i_know_it_moves,
                    "Let a real machine move without asking");
+  add_fault_option(command, options);
+  command
+      .add_option("--rig-log", options.rig_log,
+                  "Write what happens at the boards of --rig emulated to this file")
+      ->type_name("FILE");
+}
+
+void add_axis_option(CLI::App& command, Options& options) {
+  command.add_option("--axis", options.axis, "Axis")
+      ->required()
+      ->check(CLI::IsMember({"x", "y"}))
+      ->type_name("x|y");
+}
+
+void add_fault_option(CLI::App& command, Options& options) {
   command
       .add_option("--fault", options.faults,
                   "Break something of the emulated rig, as in --fault alarm:x@1.5 (repeatable)")
       ->type_name("KIND[:AXIS]@SECONDS")
       ->take_all()
       ->expected(1);
-  command
-      .add_option("--rig-log", options.rig_log,
-                  "Write what happens at the boards of --rig emulated to this file")
-      ->type_name("FILE");
 }
 
 void add_result_options(CLI::App& command, Options& options, const std::string& folder) {

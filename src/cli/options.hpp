@@ -49,6 +49,10 @@ void add_machine_options(CLI::App& command, Options& options);
 void add_interpolator_option(CLI::App& command, Options& options);
 /// --hal. @param has_rig  whether the rig is among the choices
 void add_hal_option(CLI::App& command, Options& options, bool has_rig = false);
+/// --axis, one that must be given.
+void add_axis_option(CLI::App& command, Options& options);
+/// --fault.
+void add_fault_option(CLI::App& command, Options& options);
 /// --rig, --rig-name, and with motion --i-know-it-moves, --fault, --rig-log.
 void add_rig_options(CLI::App& command, Options& options, bool can_move);
 /// --out, --no-plots, --quiet. @param folder  below renders, where results go without --out

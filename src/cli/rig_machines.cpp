@@ -25,6 +25,10 @@ namespace {
 
 namespace rig = hal::rig;
 
+std::string shared_name(const Options& options) {
+  return options.rig_name.empty() ? rig::default_shared_name() : options.rig_name;
+}
+
 rig::TableScales scales_of(const hal::TableParams& table) {
   rig::TableScales scales;
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
@@ -93,14 +97,14 @@ std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machin
 
 Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& options,
                                                             const config::MachineFile& machine) {
-  auto attached = rig::SharedRegisters::attach(options.rig_name, rig::SharedRole::kController);
+  auto attached = rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kController);
   if (!attached) {
     return tl::unexpected(attached.error());
   }
   const std::shared_ptr<rig::SharedRegisters> shared = std::move(*attached);
   auto guard = std::make_shared<rig::GuardProcess>();
   const rig::RigSettings& settings = machine.rig;
-  const auto open = [guard, shared, settings, name = options.rig_name] {
+  const auto open = [guard, shared, settings, name = shared_name(options)] {
     return guard->start(guard_target(settings, "shared:" + name)).and_then([&] {
       return open_boards(shared->boards(), settings);
     });
@@ -151,7 +155,7 @@ Expected<RigKind> find_rig(const Options& options, const config::MachineFile& ma
   auto cards = look_for_real_cards(machine.rig);
   const bool has_process =
       options.rig == "auto" &&
-      rig::SharedRegisters::attach(options.rig_name, rig::SharedRole::kObserver).has_value();
+      rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kObserver).has_value();
   if (cards && has_process) {
     return fail(ErrorCode::kUsage,
                 "there are real cards and an emulator's process: say --rig cards or --rig process");
@@ -164,7 +168,7 @@ Expected<RigKind> find_rig(const Options& options, const config::MachineFile& ma
   }
   if (options.rig == "auto") {
     cards.error().message +=
-        fmt::format("; nor does an emulator run (twin rig emulate, {})", options.rig_name);
+        fmt::format("; nor does an emulator run (twin rig emulate, {})", shared_name(options));
   }
   return tl::unexpected(cards.error());
 }
@@ -207,7 +211,7 @@ Expected<RigPorts> open_ports(RigKind kind, const Options& options,
                     std::make_unique<rig::EmulatedPci1784>(boards.pci1784)};
   };
   if (kind == RigKind::kProcess) {
-    return rig::SharedRegisters::attach(options.rig_name, rig::SharedRole::kObserver)
+    return rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kObserver)
         .map([&](std::shared_ptr<rig::SharedRegisters> shared) {
           return of_boards(shared, shared->boards());
         });

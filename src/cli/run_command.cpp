@@ -21,14 +21,21 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   if (!program) {
     return tl::unexpected(program.error());
   }
-  const auto hal = has_machine ? make_machine(options.hal, *machine) : nullptr;
+  std::unique_ptr<hal::Machine> hal;
+  if (has_machine) {
+    auto opened = open_machine(options, *machine, "run " + program->filename().string());
+    if (!opened) {
+      return tl::unexpected(opened.error());
+    }
+    hal = std::move(*opened);
+  }
   runtime::RunRequest request;
   request.program = *program;
   request.machine = *machine;
   request.hal = hal.get();
   request.feedrate = feedrate_of(options);
   request.directory = result_folder(options, *program);
-  request.is_wall_clock = options.realtime;
+  request.is_wall_clock = options.realtime || (hal && hal->info().keeps_own_time);
   request.stop = &stop;
   Expected<runtime::RunResult> result;
   {
@@ -80,7 +87,8 @@ Command add_run(const CommandContext& context) {
   add_program_options(*app, options);
   add_machine_options(*app, options);
   add_interpolator_option(*app, options);
-  add_hal_option(*app, options);
+  add_hal_option(*app, options, true);
+  add_rig_options(*app, options, true);
   app->add_flag("--realtime", options.realtime, "Keep to the wall clock");
   add_result_options(*app, options);
   add_video_options(*app, options);

@@ -19,6 +19,7 @@ class SharedBench final : public Bench {
 
   /// The emulator has switched on already.
   Expected<void> power_on(double period) override;
+  bool keeps_own_time() const noexcept override { return true; }
   bool advance() noexcept override { return true; }
   Truth truth() const noexcept override;
   void set_pen_reference(double z) noexcept override;

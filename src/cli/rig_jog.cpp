@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/rig_machines.hpp"
+#include "cli/rig_motion.hpp"
+#include "core/units.hpp"
+
+namespace twin::cli {
+namespace {
+
+Expected<void> jog(const Options& options, const std::atomic<bool>& stop) {
+  const auto machine = read_machine(options);
+  if (!machine) {
+    return tl::unexpected(machine.error());
+  }
+  const AxisMove move{"jog", options.axis.front(), options.distance_mm, *feedrate_of(options)};
+  const auto rig =
+      open_rig(options, *machine,
+               fmt::format("rig jog --axis {} --distance-mm {:g}", move.axis, move.distance));
+  if (!rig) {
+    return tl::unexpected(rig.error());
+  }
+  const auto result = make_axis_move(move, options, *machine, **rig, stop);
+  if (!result) {
+    return tl::unexpected(result.error());
+  }
+  if (!options.quiet) {
+    const auto& error = result->summary.run->tracking_error[move.axis == 'x' ? 0 : 1];
+    fmt::print(
+        "axis {} jogged by {:g} mm{}: tracking error max {:.1f}, RMS {:.1f} um; trace in {}\n",
+        move.axis, move.distance, (*rig)->info().simulated ? " (simulated)" : "",
+        units::um_from_mm(error.max), units::um_from_mm(error.rms),
+        result_folder(options, "rig_jog").string());
+  }
+  return {};
+}
+
+}  // namespace
+
+Command add_rig_jog(const CommandContext& context) {
+  Options& options = context.options;
+  CLI::App* const app =
+      context.app.add_subcommand("jog", "Move one axis from where it stands, in closed loop");
+  add_axis_option(*app, options);
+  app->add_option("--distance-mm", options.distance_mm, "How far, signed")
+      ->required()
+      ->check(CLI::Range(-1e4, 1e4))
+      ->type_name("D");
+  add_feedrate_option(*app, options, "Feedrate");
+  app->get_option("--feedrate-mm-per-min")->required();
+  add_machine_options(*app, options);
+  add_rig_options(*app, options, true);
+  app->add_option("--out", options.out, "Folder of the trace [renders/rig_jog]")->type_name("DIR");
+  app->add_flag("--quiet", options.quiet, "Print errors only");
+  return {app, [&options, &stop = context.stop] { return jog(options, stop); }};
+}
+
+}  // namespace twin::cli
