@@ -142,6 +142,33 @@ TEST(EmulatedRig, AnalogueInputsSeeTheConverters) {
   }
 }
 
+TEST(EmulatedRig, TheRangeWordDecidesWhatACodeIs) {
+  const auto velocity_at = [](std::uint16_t range, std::uint16_t code) {
+    Bench bench(RigSettings{}, {}, testing::quiet_table());
+    bench.write(0.0, 0.0);
+    bench.pci1716.write16(0x0E, range);
+    bench.pci1716.write16(0x0A, code);
+    bench.pass(200);
+    return bench.rig.plant()->velocity(kX);
+  };
+  constexpr double kMmPerSPerVolt = 500.0 / 60.0 * 10.0;
+  EXPECT_NEAR(velocity_at(0x0101, 0x8800), 0.625 * kMmPerSPerVolt, 1.0);    // +-10 V
+  EXPECT_NEAR(velocity_at(0x0100, 0x8800), 0.3125 * kMmPerSPerVolt, 1.0);   // +-5 V
+  EXPECT_NEAR(velocity_at(0x0102, 0x0800), 0.15625 * kMmPerSPerVolt, 1.0);  // 0 to 5 V
+  EXPECT_NEAR(velocity_at(0x0104, 0x8800), 0.0, 1.0);                       // external
+}
+
+TEST(EmulatedRig, AReadBackSeesTheTerminalsOfItsDrive) {
+  RigSettings wiring;
+  wiring.axis[kX].vref_readback = 7;
+  wiring.axis[kX].vref_reversed = true;
+  Bench bench(wiring);
+  bench.write(1.25, 0.0);
+  bench.pass(1);
+  EXPECT_EQ(bench.rig.boards().pci1716.analogue_in[0].load(), 1.25F);
+  EXPECT_EQ(bench.rig.boards().pci1716.analogue_in[7].load(), -1.25F);
+}
+
 TEST(EmulatedRig, TheIndexComesOnceARevolution) {
   Bench bench(RigSettings{}, {}, testing::quiet_table());
   bench.write(0.6, 0.0);  // 50 mm/s, lead 10 mm

@@ -159,6 +159,16 @@ TEST(FaultTime, CountsFromTheFirstTimeTheServoOfTheAxisIsReady) {
   EXPECT_NEAR(alarm - ready, 0.1, 1e-9);
 }
 
+TEST(FaultTime, OfACardCountsFromTheFirstServoThatIsReady) {
+  Bench bench(RigSettings{}, {{FaultKind::kCardGone1784, kX, 0.05}});
+  const RigSettings wiring;
+  bench.pci1716.write16(0x10, Bench::line(wiring.axis[kY].servo_on, true));
+  bench.pass(60);
+  EXPECT_TRUE(bench.rig.boards().pci1784.is_present.load());
+  bench.pass(20);
+  EXPECT_FALSE(bench.rig.boards().pci1784.is_present.load());
+}
+
 TEST(Events, TheReturnToZeroIsToldWithTheTimeOfTheReturn) {
   Bench bench;
   bench.write(0.5, 0.0);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/io_port/io_port.hpp"
@@ -16,8 +18,10 @@ namespace twin::hal::rig {
 /// not emulated.
 class EmulatedPci1716 final : public IoPort {
  public:
-  /// @param registers that live longer than this
-  explicit EmulatedPci1716(Pci1716Registers& registers) noexcept : card_(registers) {}
+  /// @param owner  of the registers, kept as long as this; null: they live longer by themselves
+  explicit EmulatedPci1716(Pci1716Registers& registers,
+                           std::shared_ptr<const void> owner = nullptr) noexcept
+      : owner_(std::move(owner)), card_(registers) {}
 
   std::uint8_t read8(std::uint32_t offset) noexcept override;
   std::uint16_t read16(std::uint32_t offset) noexcept override;
@@ -39,6 +43,7 @@ class EmulatedPci1716 final : public IoPort {
   void trigger() noexcept;
   void clear_fifo() noexcept;
 
+  std::shared_ptr<const void> owner_;
   Pci1716Registers& card_;
   int rejected_ = 0;
 };

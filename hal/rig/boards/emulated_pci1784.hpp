@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/io_port/io_port.hpp"
@@ -22,9 +24,10 @@ struct Pci1784Layout {
 /// accesses read as all ones, write nothing and are counted.
 class EmulatedPci1784 final : public IoPort {
  public:
-  /// @param registers that live longer than this
-  explicit EmulatedPci1784(Pci1784Registers& registers, Pci1784Layout layout = {}) noexcept
-      : card_(registers), layout_(layout) {}
+  /// @param owner  of the registers, kept as long as this; null: they live longer by themselves
+  explicit EmulatedPci1784(Pci1784Registers& registers, Pci1784Layout layout = {},
+                           std::shared_ptr<const void> owner = nullptr) noexcept
+      : owner_(std::move(owner)), card_(registers), layout_(layout) {}
 
   std::uint8_t read8(std::uint32_t offset) noexcept override;
   std::uint16_t read16(std::uint32_t offset) noexcept override;
@@ -44,6 +47,7 @@ class EmulatedPci1784 final : public IoPort {
   void latch(std::uint32_t counters) noexcept;
   void reset(std::uint32_t value) noexcept;
 
+  std::shared_ptr<const void> owner_;
   Pci1784Registers& card_;
   Pci1784Layout layout_;
   int rejected_ = 0;

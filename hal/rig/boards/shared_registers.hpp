@@ -37,7 +37,7 @@ std::string default_shared_name();
 /// What an attached process is.
 enum class SharedRole : std::uint8_t {
   kController,  ///< drives the rig; one at a time, known to the emulator
-  kObserver,    ///< looks on
+  kObserver,    ///< anybody else: a guard, a probe
 };
 
 /// Registers of emulated boards in POSIX shared memory, mode 0600.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 constexpr std::int64_t kMostBehind = 20'000'000;      // caught up with at most [ns]
-constexpr std::int64_t kControllerCheck = 1'000'000;  // between looks at the controller [ns]
+constexpr std::int64_t kControllerCheck = 1'000'000;  // between looks whether it lives [ns]
 
 std::int64_t nanoseconds(double seconds) noexcept {
   return std::llround(seconds * static_cast<double>(kNsPerS));
@@ -54,7 +54,7 @@ class Server {
   double step_;                 // [s]
   std::int64_t step_ns_;        // [ns]
   std::int64_t next_ = 0;       // when the next step is due [ns]
-  std::int64_t next_look_ = 0;  // when to look at the controller [ns]
+  std::int64_t next_look_ = 0;  // when to look whether it lives [ns]
   pid_t controller_ = 0;        // 0: none
   std::size_t told_ = 0;        // events
   ServeResult result_;
@@ -76,10 +76,6 @@ void Server::tell_events() {
 }
 
 void Server::watch_controller(std::int64_t now) {
-  if (now < next_look_) {
-    return;
-  }
-  next_look_ = now + kControllerCheck;
   const pid_t attached = shared_->block().controller.load();
   if (attached != controller_ && controller_ != 0) {
     add(is_running(controller_) || attached == 0 ? EventKind::kControllerLeft
@@ -91,7 +87,11 @@ void Server::watch_controller(std::int64_t now) {
     controller_ = attached;
     add(EventKind::kControllerJoined, attached);
   }
-  if (controller_ != 0 && !is_running(controller_)) {
+  if (controller_ == 0 || now < next_look_) {
+    return;
+  }
+  next_look_ = now + kControllerCheck;
+  if (!is_running(controller_)) {
     add(EventKind::kControllerDied, controller_);
     pid_t dead = std::exchange(controller_, 0);
     shared_->block().controller.compare_exchange_strong(dead, 0);
@@ -139,11 +139,11 @@ Expected<ServeResult> Server::run(std::optional<double> duration, const std::ato
     if (now - next_ > kMostBehind) {
       leave_out(now - next_ - kMostBehind);
     }
+    watch_controller(now);
     if (Expected<void> passed = advance(now); !passed) {
       tell_events();
       return tl::unexpected<Error>(passed.error());
     }
-    watch_controller(now);
     tell_events();
   }
   result_.plant_time = rig_.time();
