@@ -3,12 +3,26 @@
 #include "core/atomic_file.hpp"
 #include "plot/draw.hpp"
 #include "plot/figure_data.hpp"
+#include "plot/run_origin.hpp"
 #include "plot/scripts.hpp"
+#include "plot/timing_script.hpp"
 #include "trace/columns.hpp"
 
 namespace twin::plot {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The timing figure of an earlier run, which kept to the wall clock.
+void remove_timing(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"timing.gp", "timing.png", "timing.svg"}) {
+    fs::remove(folder / name, ignored);
+  }
+}
+
+}  // namespace
 
 Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   const fs::path folder = input.directory / "plots";
@@ -22,7 +36,15 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   if (!data) {
     return tl::unexpected(data.error());
   }
-  return draw(folder, figure_scripts(input.title, *data, input.plan_only));
+  const RunOrigin origin = read_run_origin(input.directory);
+  const std::string title = title_of(input.title, origin);
+  std::vector<Script> scripts = figure_scripts(title, *data, input.plan_only);
+  if (fs::exists(folder / trace::kTimingName)) {
+    scripts.push_back(timing_script(title, origin.period));
+  } else {
+    remove_timing(folder);
+  }
+  return draw(folder, scripts);
 }
 
 }  // namespace twin::plot

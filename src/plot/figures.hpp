@@ -24,7 +24,11 @@ struct FigureInput {
 ///   contour_magnified    the same with the error square to the path magnified
 ///   feedrate             feedrate over time, with its limit where plots/feedrate_limit.csv is
 ///   there acceleration_jerk    tangential acceleration and jerk of the set points contour_error
-///   contour error over time tracking_errors      tracking error of each axis over time
+///   contour error over time tracking_errors      tracking error of each axis over time timing how
+///   late periods began and how long they took, where plots/timing.csv is
+///                        there: runs on the wall clock
+///
+/// Titles say "simulated" where summary.json beside the trace does.
 ///
 /// Beside each NAME.png and NAME.svg are its data NAME.csv and its script NAME.gp; "gnuplot
 /// NAME.gp" draws it again. Long traces are thinned so that no peak is lost. With plan_only the

@@ -213,6 +213,12 @@ Script contour_script(const std::string& title, const DataSummary& data, bool pl
 
 }  // namespace
 
+Script page(const std::string& name, const std::string& settings, const std::string& drawing) {
+  return script(name, settings, drawing);
+}
+
+std::string title_line(const std::string& title) { return set_title(title); }
+
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {

@@ -35,6 +35,37 @@ class LoopingSource final : public interpolator::SegmentSource {
   std::size_t next_ = 0;
 };
 
+/// A table that is where it was told to be a period ago; costs nothing and is watched.
+class PerfectTable final : public hal::Machine {
+ public:
+  PerfectTable() {
+    info_.mm_per_count.fill(0.001);
+    info_.mm_per_s_per_volt.fill(100.0);
+  }
+  const hal::MachineInfo& info() const noexcept override { return info_; }
+  Expected<void> configure(double /*period*/) override { return {}; }
+  Expected<void> activate() override { return {}; }
+  hal::Status read(hal::Inputs& inputs) noexcept override {
+    for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
+      inputs.counts[i] = std::llround(reference_[i] / info_.mm_per_count[i]);
+      inputs.servo_ready[i] = true;
+    }
+    return hal::Status::kOk;
+  }
+  hal::Status write(const hal::Outputs& outputs) noexcept override {
+    reference_ = outputs.position_reference;
+    return hal::Status::kOk;
+  }
+  hal::Truth truth() const noexcept override { return {}; }
+  void deactivate() noexcept override {}
+  void cleanup() noexcept override {}
+  std::string last_error() const override { return {}; }
+
+ private:
+  hal::MachineInfo info_;
+  std::array<double, 3> reference_{};
+};
+
 std::vector<feedrate::PlannedSegment> plan_of_circle() {
   std::string text = "G21 G90 G17 G64\nG01 F3000\n";
   for (int i = 1; i <= 4000; ++i) {
@@ -79,6 +110,23 @@ void interpolate_and_servo(benchmark::State& state) {
   }
 }
 
+/// The same with the monitors of both axes.
+void interpolate_servo_and_monitors(benchmark::State& state) {
+  LoopingSource source(plan_of_circle());
+  interpolator::Interpolator interpolator(source, 0.001);
+  PerfectTable machine;
+  Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001);
+  trace::Sample sample;
+  for (auto _ : state) {
+    cycle.prepare();
+    if (cycle.exchange(sample) != hal::Status::kOk) {
+      state.SkipWithError("a monitor tripped");
+      return;
+    }
+    benchmark::DoNotOptimize(sample);
+  }
+}
+
 /// The same with the simulated table: ten physics steps of 0.1 ms a period.
 void whole_period_on_the_table(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
@@ -104,6 +152,7 @@ void whole_period_on_the_table(benchmark::State& state) {
 
 BENCHMARK(interpolate);
 BENCHMARK(interpolate_and_servo);
+BENCHMARK(interpolate_servo_and_monitors);
 BENCHMARK(whole_period_on_the_table);
 
 }  // namespace

@@ -112,6 +112,25 @@ TEST(SummaryTable, IsShortAlignedAndHasUnits) {
   EXPECT_THAT(table, HasSubstr("tangential jerk                49999.5     50000.0  mm/s^3"));
 }
 
+TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {
+  Summary s = sample_summary();
+  EXPECT_FALSE(Json::parse(to_json(s)).contains("realtime"));
+  RealTimeFigures figures;
+  figures.wake_up = {2e-5, 6e-5, 9e-5, 1e-4};
+  figures.late_periods = 3;
+  figures.worst_latency = 0.0123;
+  figures.notes = {"memory is not locked"};
+  s.run->realtime = figures;
+  const Json json = Json::parse(to_json(s))["realtime"];
+  EXPECT_EQ(json["wake_up_us"]["p99.9"], 90.0);
+  EXPECT_EQ(json["late_periods"], 3);
+  EXPECT_EQ(json["worst_latency_us"], 12300.0);
+  EXPECT_EQ(json["notes"][0], "memory is not locked");
+  const std::string table = to_table(s, Limits{});
+  EXPECT_THAT(table, HasSubstr("3, worst 12300.0 us after its deadline"));
+  EXPECT_THAT(table, HasSubstr("note                      memory is not locked"));
+}
+
 TEST(SummaryTable, PlanHasNoMachineRows) {
   Summary plan = sample_summary();
   plan.run.reset();

@@ -51,6 +51,33 @@ TEST(Figures, ARunHasAllFiguresWithDataAndScriptBeside) {
   }
 }
 
+TEST(Figures, ARunOnTheWallClockHasItsTimingAndSaysThatItIsSimulated) {
+  const TemporaryDirectory directory;
+  SyntheticRun run;
+  run.duration = 0.2;
+  ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run));
+  const fs::path plots = directory.path() / "plots";
+  fs::create_directories(plots);
+  std::ofstream(plots / "timing.csv")
+      << "time_us,wake_up,compute,total\n1,0,5,0\n10,70,1,3\n100,2,0,90\n";
+  std::ofstream(directory.path() / "summary.json")
+      << R"({"simulated": true, "period_s": 0.001, "machining_time_s": 1.5})";
+  auto pictures = write_figures({directory.path(), "trefoil", {}, false});
+  ASSERT_TRUE(pictures) << to_string(pictures.error());
+  EXPECT_EQ(pictures->size(), 14U);
+  EXPECT_GT(fs::file_size(plots / "timing.png"), 10000U);
+  EXPECT_THAT(test::content(plots / "timing.gp"), testing::HasSubstr("'trefoil, simulated'"));
+  EXPECT_THAT(test::content(plots / "contour.gp"), testing::HasSubstr("'trefoil, simulated'"));
+  // The next run does not keep to the wall clock, and moves metal.
+  fs::remove(plots / "timing.csv");
+  std::ofstream(directory.path() / "summary.json")
+      << R"({"simulated": false, "period_s": 0.001, "machining_time_s": 1.5})";
+  pictures = write_figures({directory.path(), "trefoil", {}, false});
+  ASSERT_TRUE(pictures) << to_string(pictures.error());
+  EXPECT_FALSE(fs::exists(plots / "timing.png"));
+  EXPECT_THAT(test::content(plots / "contour.gp"), testing::Not(testing::HasSubstr("simulated")));
+}
+
 TEST(Figures, APlanHasTheFiguresOfTheCommand) {
   const TemporaryDirectory directory;
   SyntheticRun run;

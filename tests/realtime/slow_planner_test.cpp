@@ -80,6 +80,8 @@ struct SlowRun {
     Pace pace;
     pace.is_wall_clock = true;
     pace.settle_time = 0.01;
+    pace.realtime.max_late_periods = 1000000;  // however busy the computer is
+    pace.realtime.max_stall = 1000.0;
     return run_motion(cycle, interpolator, segments, to, limits, pace, stop).end;
   }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/ideal/ideal_machine.hpp"
+#include "hal/mujoco/mujoco_machine.hpp"
+#include "runtime/pacer.hpp"
 #include "runtime/segment_queue.hpp"
 #include "tests/hal/count_new.hpp"
 #include "tests/runtime/fake_machine.hpp"
@@ -47,6 +49,34 @@ TEST_F(CycleTest, AllocatesNothing) {
   EXPECT_EQ(hal::testing::allocations(), before);
   EXPECT_TRUE(is_fine);
   EXPECT_GT(periods, 500);
+}
+
+TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
+  hal::TableParams params;
+  params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
+  hal::MujocoMachine machine(params);
+  ASSERT_TRUE(machine.configure(kPeriod));
+  ASSERT_TRUE(machine.activate());
+  Cycle cycle(interpolator, &machine, gains, kPeriod);
+  MonotonicClock clock;
+  Pacer pacer(clock, 1e-5, {});
+  const std::int64_t before = hal::testing::allocations();
+  bool is_fine = true;
+  int late = 0;
+  for (int i = 0; i < 300; ++i) {
+    const WakeUp wake_up = pacer.wait();
+    late += pacer.overrun() ? 1 : 0;
+    is_fine = is_fine && cycle.read(wake_up.interval) == hal::Status::kOk &&
+              cycle.respond_at_rest() == hal::Status::kOk;
+  }
+  while (cycle.read(kPeriod) == hal::Status::kOk &&
+         cycle.prepare() == interpolator::Status::kMoving) {
+    is_fine = is_fine && cycle.respond(sample) == hal::Status::kOk;
+  }
+  EXPECT_EQ(hal::testing::allocations(), before);
+  EXPECT_TRUE(is_fine);
+  EXPECT_FALSE(cycle.trip());
+  EXPECT_GE(late, 0);
 }
 
 TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
