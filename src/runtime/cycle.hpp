@@ -57,6 +57,10 @@ class Cycle {
   bool is_ready() const noexcept { return axis_not_ready() == safety::kNoAxis; }
   /// The first axis without servo ready at the last read(), or kNoAxis.
   std::size_t axis_not_ready() const noexcept;
+  /// Counts and switches as of the last read().
+  const hal::Inputs& inputs() const noexcept { return inputs_; }
+  /// What the counts mean [mm].
+  const Vec2& measured() const noexcept { return measured_; }
   /// What the monitors have found first.
   const std::optional<safety::Trip>& trip() const noexcept { return trip_; }
   /// A trip as of this period, about the whole machine or one axis. Real-time safe.

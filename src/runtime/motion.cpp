@@ -55,6 +55,7 @@ class Motion {
   void trip(safety::Trip trip);
   MotionEnd failed() const;
   MotionEnd at_rest() const;
+  bool has_to_stop() const { return trip_ || met_at_ || stop_.load(std::memory_order_relaxed); }
 
   Cycle& cycle_;
   interpolator::Interpolator& interpolator_;
@@ -69,6 +70,7 @@ class Motion {
   WakeUp wake_up_{};
   std::int64_t periods_ = 0;  // begun on the wall clock
   std::optional<safety::Trip> trip_;
+  std::optional<Vec2> met_at_;
   bool is_recording_ = true;
 };
 
@@ -114,6 +116,9 @@ bool Motion::exchange(trace::Sample& sample) {
     sample.wake_up_latency = wake_up_.latency;
     sample.total_time = pacer_.since_deadline();
   }
+  if (pace_.until && !met_at_ && pace_.until(cycle_.inputs())) {
+    met_at_ = cycle_.measured();
+  }
   return status == hal::Status::kOk;
 }
 
@@ -122,7 +127,12 @@ MotionEnd Motion::failed() const {
                                                                   : MotionEnd::kMachineError;
 }
 
-MotionEnd Motion::at_rest() const { return trip_ ? MotionEnd::kTripped : MotionEnd::kInterrupted; }
+MotionEnd Motion::at_rest() const {
+  if (trip_) {
+    return MotionEnd::kTripped;
+  }
+  return stop_.load() ? MotionEnd::kInterrupted : MotionEnd::kDone;
+}
 
 /// Lets the loop settle at rest before the path begins, and waits until the drives are ready.
 std::optional<MotionEnd> Motion::settle() {
@@ -158,7 +168,7 @@ std::optional<MotionEnd> Motion::settle() {
 
 /// Brakes when asked to stop; on the wall clock also while the known path still suffices for it.
 void Motion::guard_supply() {
-  if (trip_ || stop_.load(std::memory_order_relaxed)) {
+  if (has_to_stop()) {
     interpolator_.brake(ramp_);
     return;
   }
@@ -207,7 +217,7 @@ std::optional<MotionEnd> Motion::follow_path() {
   guard_supply();
   const interpolator::Status status = cycle_.prepare();
   if (status == interpolator::Status::kDone) {
-    return trip_ || stop_.load() ? at_rest() : MotionEnd::kDone;
+    return at_rest();
   }
   if (status == interpolator::Status::kMoving) {
     trace::Sample sample;
@@ -218,7 +228,7 @@ std::optional<MotionEnd> Motion::follow_path() {
     return is_fine ? std::nullopt : std::optional(failed());
   }
   if (status == interpolator::Status::kAtRest) {
-    if (trip_ || stop_.load()) {
+    if (has_to_stop()) {
       return at_rest();
     }
     if (segments_.is_primed()) {
@@ -241,6 +251,7 @@ MotionResult Motion::run() {
   MotionResult result;
   result.end = move();
   result.trip = trip_;
+  result.met_at = met_at_;
   result.late_periods = pacer_.late_periods();
   result.worst_latency = pacer_.worst_latency();
   return result;

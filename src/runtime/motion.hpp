@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/limits.hpp"
+#include "core/vec.hpp"
 #include "hal/machine.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/cycle.hpp"
@@ -32,6 +33,7 @@ enum class MotionEnd : std::uint8_t {
 struct MotionResult {
   MotionEnd end = MotionEnd::kDone;
   std::optional<safety::Trip> trip;  ///< what ended it, with kTripped
+  std::optional<Vec2> met_at;        ///< measured, where Pace::until came true [mm]
   std::int64_t late_periods = 0;     ///< wall clock only
   double worst_latency = 0.0;        ///< of a period's begin [s]; wall clock only
 };
@@ -46,6 +48,7 @@ struct Pace {
   RealtimeSettings realtime;   ///< when a period is too late
   Clock* clock = nullptr;      ///< null: CLOCK_MONOTONIC
   std::function<void(std::int64_t)> before_period;  ///< see Hooks
+  Until until;                                      ///< ends the motion early
 };
 
 /// Runs cycles from rest to rest; the body of the motion thread. At its end the machine is off, 0 V
