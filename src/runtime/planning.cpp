@@ -62,4 +62,17 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
   return figures;
 }
 
+void put_into(metrics::Summary& summary, const PlanFigures& figures) {
+  const metrics::Running& lengths = figures.short_length;
+  summary.blocks = {figures.blocks, lengths.count(), lengths.min(), lengths.mean(), lengths.max()};
+  summary.segments = {figures.curves + figures.lines + figures.arcs, figures.curves, figures.lines,
+                      figures.arcs};
+  summary.compression_factor =
+      figures.fitted_curves > 0
+          ? static_cast<double>(lengths.count()) / static_cast<double>(figures.fitted_curves)
+          : 1.0;
+  summary.path_length = figures.path_length;
+  summary.planned_time = figures.time;
+}
+
 }  // namespace twin::runtime

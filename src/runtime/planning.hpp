@@ -7,6 +7,7 @@
 #include "feedrate/planned_segment.hpp"
 #include "gcode/reader.hpp"
 #include "metrics/running.hpp"
+#include "metrics/summary.hpp"
 
 namespace twin::runtime {
 
@@ -28,5 +29,8 @@ struct PlanFigures {
 /// @param sink  takes each planned segment; returns false to stop
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink);
+
+/// The figures of a plan where the summary has them.
+void put_into(metrics::Summary& summary, const PlanFigures& figures);
 
 }  // namespace twin::runtime

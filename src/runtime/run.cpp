@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <exception>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "runtime/active_machine.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/planning.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/realtime_thread.hpp"
 #include "runtime/recorder.hpp"
+#include "runtime/thrown.hpp"
 #include "safety/trip.hpp"
 
 namespace twin::runtime {
@@ -20,32 +21,6 @@ namespace {
 
 constexpr std::size_t kSampleBuffer = 16384;
 constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
-
-/// Configures and activates a machine; whatever happens, it is left with 0 V and servo off.
-class ActiveMachine {
- public:
-  explicit ActiveMachine(hal::Machine* machine) : machine_(machine) {}
-  ActiveMachine(const ActiveMachine&) = delete;
-  ActiveMachine& operator=(const ActiveMachine&) = delete;
-  ~ActiveMachine() {
-    if (machine_ != nullptr) {
-      machine_->deactivate();
-      machine_->cleanup();
-    }
-  }
-  Expected<void> start(double period) {
-    if (machine_ == nullptr) {
-      return {};
-    }
-    if (auto configured = machine_->configure(period); !configured) {
-      return configured;
-    }
-    return machine_->activate();
-  }
-
- private:
-  hal::Machine* machine_;
-};
 
 /// One run: its threads and what they share.
 class Run {
@@ -96,18 +71,6 @@ gcode::ReaderOptions reader_options(const RunRequest& request) {
   gcode::ReaderOptions options;
   options.feedrate = request.feedrate;
   return options;
-}
-
-/// What a thread threw, as an error of the run.
-Error thrown(const char* where) {
-  std::string what = "unknown exception";
-  try {
-    throw;
-  } catch (const std::exception& exception) {
-    what = exception.what();
-  } catch (...) {
-  }
-  return {ErrorCode::kMachine, fmt::format("{} failed: {}", where, what), {}, 0, 0};
 }
 
 void Run::plan(gcode::Reader& reader) {
@@ -191,9 +154,7 @@ void Run::record() {
       if (request_.stop != nullptr && request_.stop->load()) {
         stop_ = true;
       }
-      if (!record_error_) {
-        report_progress();
-      }
+      report_progress();
     } catch (...) {
       record_error_ = thrown("recording");
       stop_ = true;
@@ -208,7 +169,7 @@ void Run::record() {
 }
 
 void Run::report_progress() {
-  if (!request_.progress || program_.lines == 0) {
+  if (!request_.progress || program_.lines == 0 || record_error_) {
     return;
   }
   const auto percent =
@@ -234,16 +195,14 @@ std::optional<Error> Run::failure() const {
     case MotionEnd::kDone:
       return std::nullopt;
     case MotionEnd::kInterrupted:
-      return Error{ErrorCode::kInterrupted, "interrupted: stopped on the path " + at, {}, 0, 0};
+      return fail(ErrorCode::kInterrupted, "interrupted: stopped on the path " + at).value();
     case MotionEnd::kMachineError:
-      return Error{ErrorCode::kMachine,
-                   fmt::format("machine '{}' failed {}: {}", request_.hal->info().name, at,
-                               request_.hal->last_error()),
-                   {},
-                   0,
-                   0};
+      return fail(ErrorCode::kMachine,
+                  fmt::format("machine '{}' failed {}: {}", request_.hal->info().name, at,
+                              request_.hal->last_error()))
+          .value();
     case MotionEnd::kTripped:
-      return Error{ErrorCode::kMachine, safety::describe(*motion_.trip), {}, 0, 0};
+      return fail(ErrorCode::kMachine, safety::describe(*motion_.trip)).value();
   }
   return std::nullopt;
 }
@@ -256,17 +215,7 @@ metrics::Summary Run::summarise(double wall_time) {
   summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
-  const metrics::Running& lengths = plan_figures_.short_length;
-  summary.blocks = {plan_figures_.blocks, lengths.count(), lengths.min(), lengths.mean(),
-                    lengths.max()};
-  summary.segments = {plan_figures_.curves + plan_figures_.lines + plan_figures_.arcs,
-                      plan_figures_.curves, plan_figures_.lines, plan_figures_.arcs};
-  summary.compression_factor =
-      plan_figures_.fitted_curves > 0
-          ? static_cast<double>(lengths.count()) / static_cast<double>(plan_figures_.fitted_curves)
-          : 1.0;
-  summary.path_length = plan_figures_.path_length;
-  summary.planned_time = plan_figures_.time;
+  put_into(summary, plan_figures_);
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;

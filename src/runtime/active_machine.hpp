@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "hal/machine.hpp"
+
+namespace twin::runtime {
+
+/// Configures and activates a machine; whatever happens, it is left with 0 V and servo off.
+class ActiveMachine {
+ public:
+  explicit ActiveMachine(hal::Machine* machine) : machine_(machine) {}
+  ActiveMachine(const ActiveMachine&) = delete;
+  ActiveMachine& operator=(const ActiveMachine&) = delete;
+  ~ActiveMachine() {
+    if (machine_ != nullptr) {
+      machine_->deactivate();
+      machine_->cleanup();
+    }
+  }
+  Expected<void> start(double period) {
+    if (machine_ == nullptr) {
+      return {};
+    }
+    if (auto configured = machine_->configure(period); !configured) {
+      return configured;
+    }
+    return machine_->activate();
+  }
+
+ private:
+  hal::Machine* machine_;
+};
+
+}  // namespace twin::runtime
