@@ -12,7 +12,7 @@ Command add_rig(const CommandContext& context) {
   const CommandContext inner{*app, context.options, context.stop};
   const std::vector<Command> commands{add_rig_probe(inner), add_rig_monitor(inner),
                                       add_rig_check(inner), add_rig_jog(inner),
-                                      add_rig_emulate(inner)};
+                                      add_rig_home(inner),  add_rig_emulate(inner)};
   return {app, [commands] {
             return std::ranges::find_if(
                        commands, [](const Command& command) { return command.app->parsed(); })

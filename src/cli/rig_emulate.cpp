@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string_view>
 
 #include "cli/commands.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 #include "hal/rig/emulator/serve.hpp"
+#include "runtime/realtime_thread.hpp"
 
 namespace twin::cli {
 namespace {
@@ -35,6 +37,13 @@ Expected<void> emulate(const Options& options, const std::atomic<bool>& stop) {
   tell(fmt::format("emulated rig (simulated), process {}, registers in {}; Ctrl-C ends it",
                    getpid(),
                    options.rig_name.empty() ? rig::default_shared_name() : options.rig_name));
+  // Above a controller on the same machine, or its command would outrun the plant.
+  RealtimeSettings pace = machine->realtime;
+  pace.priority = pace.priority > 0 ? std::min(pace.priority + 5, 98) : 0;
+  const runtime::RealtimeThread realtime(pace);
+  for (const std::string& note : realtime.notes()) {
+    tell("note: " + note);
+  }
   const auto result = rig::serve(machine->table, machine->rig, settings, stop, tell);
   if (!result) {
     return tl::unexpected(result.error());

@@ -13,7 +13,7 @@ Expected<void> jog(const Options& options, const std::atomic<bool>& stop) {
   if (!machine) {
     return tl::unexpected(machine.error());
   }
-  const AxisMove move{"jog", options.axis.front(), options.distance_mm, *feedrate_of(options)};
+  const AxisMove move{"jog", options.axis.front(), options.distance_mm, *feedrate_of(options), {}};
   const auto rig =
       open_rig(options, *machine,
                fmt::format("rig jog --axis {} --distance-mm {:g}", move.axis, move.distance));
@@ -23,6 +23,9 @@ Expected<void> jog(const Options& options, const std::atomic<bool>& stop) {
   const auto result = make_axis_move(move, options, *machine, **rig, stop);
   if (!result) {
     return tl::unexpected(result.error());
+  }
+  if (result->failure) {
+    return tl::unexpected(*result->failure);
   }
   if (!options.quiet) {
     const auto& error = result->summary.run->tracking_error[move.axis == 'x' ? 0 : 1];

@@ -38,10 +38,17 @@ rig::TableScales scales_of(const hal::TableParams& table) {
   return scales;
 }
 
+rig::Pci1784Layout layout_of(const rig::RigSettings& settings) {
+  rig::Pci1784Layout layout;
+  layout.reset = static_cast<std::uint32_t>(settings.counter_reset_offset);
+  return layout;
+}
+
 Expected<std::unique_ptr<rig::Cards>> open_boards(rig::BoardRegisters& boards,
                                                   const rig::RigSettings& settings) {
-  return rig::RegisterCards::open(std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
-                                  std::make_unique<rig::EmulatedPci1784>(boards.pci1784), settings);
+  return rig::RegisterCards::open(
+      std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
+      std::make_unique<rig::EmulatedPci1784>(boards.pci1784, layout_of(settings)), settings);
 }
 
 /// What happened at the boards, when all is over.

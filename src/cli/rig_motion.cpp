@@ -18,6 +18,7 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move, const Options&
   request.hal = &hal;
   request.is_wall_clock = options.realtime || hal.info().keeps_own_time;
   request.stop = &stop;
+  request.until = move.until;
   const std::string text =
       fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == 'x' ? 'X' : 'Y', move.distance,
                   units::mm_per_min_from_mm_per_s(move.feedrate));
@@ -34,10 +35,9 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move, const Options&
   if (auto saved = write_summary(request.directory, *result); !saved) {
     return tl::unexpected(saved.error());
   }
-  if (result->failure) {
-    return tl::unexpected(*result->failure);
+  if (!result->failure) {
+    remove_stale_results(request.directory);
   }
-  remove_stale_results(request.directory);
   return result;
 }
 

@@ -18,11 +18,12 @@ struct AxisMove {
   char axis = 'x';        ///< x or y
   double distance = 0.0;  ///< signed [mm]
   double feedrate = 0.0;  ///< [mm/s]
+  runtime::Until until;   ///< ends it early; empty: nothing does
 };
 
 /// Makes the move and leaves program, trace and summary in the folder of the results.
 ///
-/// @returns what was recorded; an error where the move could not be made or did not end
+/// @returns what was recorded, which may be a failure; an error where the move could not be begun
 Expected<runtime::RunResult> make_axis_move(const AxisMove& move, const Options& options,
                                             const config::MachineFile& machine, hal::Machine& hal,
                                             const std::atomic<bool>& stop);

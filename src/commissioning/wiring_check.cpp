@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "hal/active_machine.hpp"
+
 namespace twin::commissioning {
 namespace {
 
@@ -11,21 +13,6 @@ constexpr double kNoMotionShare = 0.1;
 constexpr double kScaleTolerance = 0.2;
 
 constexpr char axis_name(std::size_t axis) { return axis == hal::kX ? 'x' : 'y'; }
-
-/// A machine that is left with 0 V and servo off whatever happens.
-class Activation {
- public:
-  explicit Activation(hal::Machine& machine) : machine_(machine) {}
-  Activation(const Activation&) = delete;
-  Activation& operator=(const Activation&) = delete;
-  ~Activation() {
-    machine_.deactivate();
-    machine_.cleanup();
-  }
-
- private:
-  hal::Machine& machine_;
-};
 
 /// One open-loop exchange with the machine after another.
 class Prober {
@@ -182,12 +169,9 @@ Expected<AxisWiringReport> Prober::check(std::size_t axis) {
 Expected<WiringReport> check_wiring(hal::Machine& machine, const WiringCheckSettings& settings,
                                     double period, const WaitForPeriod& wait,
                                     const std::atomic<bool>& stop) {
-  const Activation activation(machine);
-  if (auto configured = machine.configure(period); !configured) {
-    return tl::unexpected(configured.error());
-  }
-  if (auto active = machine.activate(); !active) {
-    return tl::unexpected(active.error());
+  hal::ActiveMachine active(&machine);
+  if (auto started = active.start(period); !started) {
+    return tl::unexpected(started.error());
   }
   Prober prober(machine, settings, period, wait, stop);
   if (auto looked = prober.look(); !looked) {

@@ -64,6 +64,9 @@ std::vector<Binding> table_bindings(hal::TableParams& table);
 /// The part of bindings() that is about monitors and wall clock: [safety], [realtime].
 std::vector<Binding> safety_bindings(MachineFile& machine);
 
+/// The part of bindings() that is about homing.
+std::vector<Binding> home_bindings(MachineFile& machine);
+
 /// The part of bindings() that is about the real rig.
 std::vector<Binding> rig_bindings(hal::rig::RigSettings& rig);
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "config/binding.hpp"
 #include "core/units.hpp"
 
@@ -88,14 +91,9 @@ std::vector<Binding> bindings(MachineFile& machine) {
   add_interpolator(list, machine.interpolation, machine.path.curves, machine.period);
   add_servo(list, "servo.x", machine.servo[hal::kX]);
   add_servo(list, "servo.y", machine.servo[hal::kY]);
-  for (Binding& binding : safety_bindings(machine)) {
-    list.push_back(std::move(binding));
-  }
-  for (Binding& binding : table_bindings(machine.table)) {
-    list.push_back(std::move(binding));
-  }
-  for (Binding& binding : rig_bindings(machine.rig)) {
-    list.push_back(std::move(binding));
+  for (List part : {safety_bindings(machine), table_bindings(machine.table),
+                    rig_bindings(machine.rig), home_bindings(machine)}) {
+    std::ranges::move(part, std::back_inserter(list));
   }
   return list;
 }

@@ -24,14 +24,14 @@ void add_safety(std::vector<Binding>& list, safety::Settings& s) {
                   "from servo on to servo ready", 1e3});
 }
 
-void add_realtime(std::vector<Binding>& list, runtime::RealtimeSettings& r) {
+void add_realtime(std::vector<Binding>& list, RealtimeSettings& r) {
   const char* section = "realtime";
   list.push_back({section, "priority", "", &r.priority, 0.0, 99.0,
                   "SCHED_FIFO priority of the motion thread; 0 for ordinary scheduling"});
   list.push_back({section, "cpu", "", &r.cpu, -1.0, 1023.0,
                   "CPU that the motion thread stays on; -1 for any"});
-  list.push_back({section, "lock_memory", "", choice(r.lock_memory, {"no", "yes"}), 0.0, 0.0,
-                  "keep memory from being swapped out"});
+  list.push_back(
+      {section, "lock_memory", "", &r.lock_memory, 0.0, 0.0, "keep memory from being swapped out"});
   list.push_back({section, "max_late_periods", "", &r.max_late_periods, 1.0, 1e6,
                   "so many late periods in a row end the motion"});
   list.push_back({section, "max_stall", "ms", &r.max_stall, 1.0, 1e5,

@@ -7,14 +7,15 @@
 #include <string>
 #include <string_view>
 
+#include "commissioning/home_settings.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
+#include "core/realtime_settings.hpp"
 #include "hal/mujoco/table_params.hpp"
 #include "hal/rig/rig_settings.hpp"
 #include "hal/signals.hpp"
 #include "interpolator/settings.hpp"
-#include "runtime/realtime_settings.hpp"
 #include "safety/settings.hpp"
 #include "servo/gains.hpp"
 
@@ -32,9 +33,10 @@ struct MachineFile {
   interpolator::Settings interpolation;
   std::array<servo::Gains, hal::kServoAxes> servo;
   safety::Settings safety;
-  runtime::RealtimeSettings realtime;
+  RealtimeSettings realtime;
   hal::TableParams table;     ///< table.model is absolute once read
   hal::rig::RigSettings rig;  ///< cards and wires of the real machine
+  std::array<commissioning::HomeSettings, hal::kServoAxes> home;
 };
 
 /// Reads a machine file and then applies `section.key=value` texts to it, in order.

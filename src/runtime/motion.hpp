@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "core/limits.hpp"
+#include "core/realtime_settings.hpp"
 #include "core/vec.hpp"
 #include "hal/machine.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/cycle.hpp"
-#include "runtime/realtime_settings.hpp"
+#include "runtime/hooks.hpp"
 #include "runtime/segment_queue.hpp"
 #include "safety/trip.hpp"
 #include "trace/sample.hpp"

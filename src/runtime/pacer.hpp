@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/realtime_settings.hpp"
 #include "runtime/clock.hpp"
-#include "runtime/realtime_settings.hpp"
 #include "safety/trip.hpp"
 
 namespace twin::runtime {

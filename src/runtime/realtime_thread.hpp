@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/realtime_settings.hpp"
+#include "core/realtime_settings.hpp"
 
 namespace twin::runtime {
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "runtime/active_machine.hpp"
+#include "hal/active_machine.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/planning.hpp"
 #include "runtime/program_check.hpp"
@@ -112,6 +112,7 @@ void Run::move() {
   pace.ready_timeout = request_.machine.safety.ready_timeout;
   pace.realtime = request_.machine.realtime;
   pace.before_period = request_.hooks.before_period;
+  pace.until = request_.until;
   motion_ =
       run_motion(cycle_, interpolator_, segments_, samples_, request_.machine.limits, pace, stop_);
 }
@@ -251,6 +252,9 @@ Expected<RunResult> Run::execute() {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunResult result;
   result.failure = failure();
+  result.trip = motion_.trip;
+  result.met_at = motion_.met_at;
+  result.last_at = recorder_.last().encoder;
   result.summary = summarise(wall_time);
   if (!result.failure) {
     if (auto committed = recorder_.commit(); !committed) {
@@ -277,7 +281,7 @@ Expected<RunResult> run_program(const RunRequest& request) {
     return tl::unexpected(Error{ErrorCode::kFile, "cannot make this folder: " + code.message(),
                                 request.directory.string(), 0, 0});
   }
-  ActiveMachine machine(request.hal);
+  hal::ActiveMachine machine(request.hal);
   if (auto started = machine.start(request.machine.period); !started) {
     return tl::unexpected(started.error());
   }

@@ -8,9 +8,11 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "core/vec.hpp"
 #include "hal/machine.hpp"
 #include "metrics/summary.hpp"
 #include "runtime/hooks.hpp"
+#include "safety/trip.hpp"
 
 namespace twin::runtime {
 
@@ -24,6 +26,7 @@ struct RunRequest {
   bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
+  Until until;                              ///< ends the motion early, as at the path's end
   Hooks hooks;                              ///< for tests
 };
 
@@ -32,6 +35,9 @@ struct RunResult {
   metrics::Summary summary;
   std::optional<Error>
       failure;  ///< why it ended early; what was recorded is kept, named as partial
+  std::optional<safety::Trip> trip;  ///< where a monitor was the reason
+  std::optional<Vec2> met_at;        ///< measured, where `until` came true [mm]
+  Vec2 last_at = Vec2::Zero();       ///< measured at the last set point [mm]
 };
 
 /// Plans a program, moves the machine along it and records everything: planning thread, motion

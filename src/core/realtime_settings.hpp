@@ -1,6 +1,6 @@
 #pragma once
 
-namespace twin::runtime {
+namespace twin {
 
 /// How a run on the wall clock keeps time; section [realtime] of the machine file.
 struct RealtimeSettings {
@@ -11,4 +11,4 @@ struct RealtimeSettings {
   double max_stall = 0.1;    ///< one period as late as this ends it too [s]
 };
 
-}  // namespace twin::runtime
+}  // namespace twin

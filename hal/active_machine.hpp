@@ -3,12 +3,12 @@
 #include "core/error.hpp"
 #include "hal/machine.hpp"
 
-namespace twin::runtime {
+namespace twin::hal {
 
 /// Configures and activates a machine; whatever happens, it is left with 0 V and servo off.
 class ActiveMachine {
  public:
-  explicit ActiveMachine(hal::Machine* machine) : machine_(machine) {}
+  explicit ActiveMachine(Machine* machine) : machine_(machine) {}
   ActiveMachine(const ActiveMachine&) = delete;
   ActiveMachine& operator=(const ActiveMachine&) = delete;
   ~ActiveMachine() {
@@ -28,7 +28,7 @@ class ActiveMachine {
   }
 
  private:
-  hal::Machine* machine_;
+  Machine* machine_;
 };
 
-}  // namespace twin::runtime
+}  // namespace twin::hal
