@@ -16,7 +16,8 @@ Script timing_script(const std::string& title, double period) {
   if (period > 0.0) {
     settings += fmt::format(
         "set xrange [0.1<*:{0:g}<*]\n"
-        "set arrow 1 from first {1:g}, graph 0 to first {1:g}, graph 1 nohead linecolor rgb '#404040' dashtype 2\n"
+        "set arrow 1 from first {1:g}, graph 0 to first {1:g}, graph 1 nohead linecolor rgb "
+        "'#404040' dashtype 2\n"
         "set label 2 'period' at first {1:g}, graph 0.97 right offset -0.5, 0\n",
         period * 2e6, period * 1e6);
   }
