@@ -38,16 +38,19 @@ function(twin_library name)
   endif()
 endfunction()
 
-# twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [LABELS slow])
-# makes program gcode_test and one ctest entry per TEST in it.
+# twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [LABELS slow] [SERIAL])
+# makes program gcode_test and one ctest entry per TEST in it; SERIAL ones, on the wall clock, run with nothing beside.
 function(twin_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPS;LABELS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE TWIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set(label_property)
   if(ARG_LABELS)
     set(label_property LABELS "${ARG_LABELS}")
+  endif()
+  if(ARG_SERIAL)
+    list(APPEND label_property RUN_SERIAL TRUE)
   endif()
   gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST
     PROPERTIES TIMEOUT 300 ${label_property})

@@ -20,10 +20,12 @@ Expected<void> RigMachine::configure(double period) {
   if (!(period > 0.0) || !std::isfinite(period)) {
     return fail(ErrorCode::kMachine, fmt::format("period {} s is not above 0", period));
   }
-  if (bench_ != nullptr) {
+  // As with real cards, what is behind them goes on where it stood.
+  if (bench_ != nullptr && bench_period_ != period) {
     if (Expected<void> on = bench_->power_on(period); !on) {
       return on;
     }
+    bench_period_ = period;
   }
   Expected<std::unique_ptr<Cards>> cards = open_cards_();
   if (!cards) {
@@ -72,6 +74,32 @@ Expected<void> RigMachine::reset_alarms(CardInputs& inputs) {
       .and_then([&] { return fetch(inputs); });
 }
 
+// A table that still coasts has no position to make zero: its counts must stay, but for one of
+// noise.
+Expected<void> RigMachine::wait_for_standstill(CardInputs& inputs) {
+  constexpr double kLook = 0.05;     // [s]
+  constexpr double kPatience = 3.0;  // [s]
+  std::size_t moving = kX;
+  for (double passed = 0.0; passed < kPatience; passed += kLook) {
+    const CardInputs before = inputs;
+    if (auto looked = wait(kLook).and_then([&] { return fetch(inputs); }); !looked) {
+      return looked;
+    }
+    const auto has_moved = [&](std::size_t axis) {
+      const auto counter = static_cast<std::size_t>(settings_.axis[axis].counter);
+      return std::abs(inputs.counts[counter] - before.counts[counter]) > 1;
+    };
+    if (!has_moved(kX) && !has_moved(kY)) {
+      return {};
+    }
+    moving = has_moved(kX) ? kX : kY;
+  }
+  return fail(
+      ErrorCode::kMachine,
+      fmt::format("axis {} still moves {:g} s after 0 V and servo off; wait until it stands",
+                  "xy"[moving], kPatience));
+}
+
 Expected<void> RigMachine::activate() {
   if (state_ != State::kInactive) {
     return fail(ErrorCode::kMachine, state_ == State::kActive ? "the rig is active already"
@@ -87,6 +115,9 @@ Expected<void> RigMachine::activate() {
     ready = reset_alarms(inputs);
   }
   ready = ready.and_then([&] { return check_drives(settings_, inputs.digital); });
+  if (ready && info_.keeps_own_time) {
+    ready = wait_for_standstill(inputs);
+  }
   if (!ready) {
     cards_->make_safe();
     return ready;

@@ -71,6 +71,7 @@ class RigMachine final : public Machine {
 
   Expected<void> reset_alarms(CardInputs& inputs);
   Expected<void> wait(double time);
+  Expected<void> wait_for_standstill(CardInputs& inputs);
   Expected<void> fetch(CardInputs& inputs);
   void fill(const CardInputs& card, Inputs& inputs) const noexcept;
   CardOutputs card_outputs(const Outputs& outputs) const noexcept;
@@ -88,6 +89,7 @@ class RigMachine final : public Machine {
   std::unique_ptr<Cards> cards_;
   std::optional<EmergencyStop> emergency_;
   double period_ = 0.0;                          // [s]
+  double bench_period_ = 0.0;                    // the bench is on with it; 0: it is off [s]
   std::array<std::int64_t, kServoAxes> home_{};  // of the counters, set by activate() [counts]
   std::array<bool, kServoAxes> servo_on_{};      // as last written
   Truth origin_;                                 // of truth(), set by activate() [mm]

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -61,6 +63,10 @@ void write_log(rig::EmulatedRig& emulated, const std::filesystem::path& file) {
   for (std::size_t i = events.first(); i < events.written(); ++i) {
     text += to_string(events[i]) + '\n';
   }
+  const rig::Pci1716Registers& card = emulated.boards().pci1716;
+  text +=
+      fmt::format("plant {:.6f} s: end, DAC 0 0x{:04X}, DAC 1 0x{:04X}, digital outputs 0x{:04X}\n",
+                  emulated.time(), card.dac[0].load(), card.dac[1].load(), card.digital_out.load());
   if (auto written = write_whole_file(file, text); !written) {
     fmt::print(stderr, "twin: {}\n", to_string(written.error()));
   }
@@ -71,11 +77,12 @@ std::filesystem::path guard_program() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "twin-guard";
 }
 
-rig::GuardTarget guard_target(const rig::RigSettings& settings, std::string outputs) {
+rig::GuardTarget guard_target(const config::MachineFile& machine, std::string outputs) {
   rig::GuardTarget target;
   target.program = guard_program();
   target.outputs = std::move(outputs);
-  target.safe_digital = rig::safe_digital(settings);
+  target.safe_digital = rig::safe_digital(machine.rig);
+  target.timeout = std::chrono::milliseconds(std::lround(machine.safety.heartbeat_timeout * 1e3));
   return target;
 }
 
@@ -90,15 +97,14 @@ Expected<std::string> outputs_of_cards(const rig::RigSettings& settings) {
 
 std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machine) {
   auto guard = std::make_shared<rig::GuardProcess>();
-  const rig::RigSettings& settings = machine.rig;
-  const auto open = [guard, settings] {
-    return outputs_of_cards(settings)
+  const auto open = [guard, machine] {
+    return outputs_of_cards(machine.rig)
         .and_then([&](const std::string& outputs) {
-          return guard->start(guard_target(settings, outputs));
+          return guard->start(guard_target(machine, outputs));
         })
-        .and_then([&] { return rig::open_cards(settings); });
+        .and_then([&] { return rig::open_cards(machine.rig); });
   };
-  return std::make_unique<rig::RigMachine>(settings, scales_of(machine.table), open, nullptr,
+  return std::make_unique<rig::RigMachine>(machine.rig, scales_of(machine.table), open, nullptr,
                                            guard.get());
 }
 
@@ -110,13 +116,12 @@ Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& optio
   }
   const std::shared_ptr<rig::SharedRegisters> shared = std::move(*attached);
   auto guard = std::make_shared<rig::GuardProcess>();
-  const rig::RigSettings& settings = machine.rig;
-  const auto open = [guard, shared, settings, name = shared_name(options)] {
-    return guard->start(guard_target(settings, "shared:" + name)).and_then([&] {
-      return open_boards(shared->boards(), settings);
+  const auto open = [guard, shared, machine, name = shared_name(options)] {
+    return guard->start(guard_target(machine, "shared:" + name)).and_then([&] {
+      return open_boards(shared->boards(), machine.rig);
     });
   };
-  return std::make_unique<rig::RigMachine>(settings, scales_of(machine.table), open,
+  return std::make_unique<rig::RigMachine>(machine.rig, scales_of(machine.table), open,
                                            std::make_shared<rig::SharedBench>(shared), guard.get());
 }
 

@@ -20,6 +20,9 @@ void add_safety(std::vector<Binding>& list, safety::Settings& s) {
                   "fastest plausible counts over the largest feedrate"});
   list.push_back({section, "saturation_time", "ms", &s.saturation_time, 0.0, 1e5,
                   "how long a drive command may be cut to +-10 V", 1e3});
+  list.push_back({section, "heartbeat_timeout", "ms", &s.heartbeat_timeout, 5.0, 1e4,
+                  "longest silence of the controller before the guard makes the outputs safe",
+                  1e3});
   list.push_back({section, "ready_timeout", "ms", &s.ready_timeout, 1.0, 1e5,
                   "from servo on to servo ready", 1e3});
 }

@@ -47,12 +47,22 @@ interpolator::Status Cycle::prepare() noexcept {
   return status;
 }
 
+Vec2 Cycle::position_of_counts() const noexcept {
+  const auto& scale = machine_->info().mm_per_count;
+  return {servo::position_from_counts(inputs_.counts[hal::kX], scale[hal::kX]),
+          servo::position_from_counts(inputs_.counts[hal::kY], scale[hal::kY])};
+}
+
+Vec2 Cycle::true_position() const noexcept {
+  const hal::Truth truth = machine_->truth();
+  return {truth.table_position[hal::kX], truth.table_position[hal::kY]};
+}
+
 /// Counts to drive commands.
 void Cycle::close_loops() noexcept {
-  const hal::MachineInfo& info = machine_->info();
+  measured_ = position_of_counts();
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    measured_[k] = servo::position_from_counts(inputs_.counts[i], info.mm_per_count[i]);
     outputs_.volts[i] = servos_[i].update(
         {set_point_.position[k], set_point_.velocity[k], set_point_.acceleration[k]}, measured_[k]);
   }
@@ -96,19 +106,14 @@ bool Cycle::is_safe() noexcept {
 
 bool Cycle::write() noexcept {
   const hal::MachineInfo& info = machine_->info();
-  const auto take_truth = [&] {
-    const hal::Truth truth = machine_->truth();
-    table_ = {truth.table_position[0], truth.table_position[1]};
-  };
   if (info.has_truth && !info.follows_reference) {
-    take_truth();
+    table_ = true_position();
   }
   if (machine_->write(outputs_) != hal::Status::kOk) {
     return false;
   }
   if (info.follows_reference) {
-    take_truth();
-    measured_ = table_;
+    measured_ = table_ = true_position();
   }
   return true;
 }
@@ -140,6 +145,16 @@ hal::Status Cycle::respond_at_rest() noexcept {
   const hal::Status status = respond(unused);
   periods_ = periods;
   return status;
+}
+
+void Cycle::pass_over(trace::Sample& sample, double share) noexcept {
+  fill(sample);
+  const Vec2 now = position_of_counts();
+  sample.encoder = measured_ + share * (now - measured_);
+  sample.table = machine_->info().has_truth ? Vec2(table_ + share * (true_position() - table_))
+                                            : sample.encoder;
+  sample.is_passed_over = true;
+  ++periods_;
 }
 
 hal::Status Cycle::exchange(trace::Sample& sample) noexcept {

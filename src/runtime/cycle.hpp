@@ -46,6 +46,10 @@ class Cycle {
   hal::Status respond(trace::Sample& sample) noexcept;
   /// The same for the last set point, at rest. Real-time safe.
   hal::Status respond_at_rest() noexcept;
+  /// Passes over a set point whose period never began: nothing is written. Measured values of the
+  /// sample lie between those of the period before and those just read. Real-time safe.
+  /// @param share  how far between them, 0 to 1
+  void pass_over(trace::Sample& sample, double share) noexcept;
 
   /// read() and respond(). Real-time safe.
   hal::Status exchange(trace::Sample& sample) noexcept;
@@ -53,6 +57,8 @@ class Cycle {
   hal::Status hold() noexcept;
 
   bool has_machine() const noexcept { return machine_ != nullptr; }
+  /// Whether the machine's time passes by itself, on the wall clock.
+  bool keeps_own_time() const noexcept { return has_machine() && machine_->info().keeps_own_time; }
   /// Servo ready of both axes at the last read().
   bool is_ready() const noexcept { return axis_not_ready() == safety::kNoAxis; }
   /// The first axis without servo ready at the last read(), or kNoAxis.
@@ -69,6 +75,8 @@ class Cycle {
   void switch_off() noexcept;
 
  private:
+  Vec2 position_of_counts() const noexcept;
+  Vec2 true_position() const noexcept;
   void close_loops() noexcept;
   bool is_safe() noexcept;
   bool write() noexcept;

@@ -38,7 +38,8 @@ class Motion {
         limits_(limits),
         pace_(pace),
         stop_(stop),
-        pacer_(pace.clock != nullptr ? *pace.clock : monotonic_, pace.period, pace.realtime) {}
+        pacer_(pace.clock != nullptr ? *pace.clock : monotonic_, pace.period, pace.realtime,
+               cycle.keeps_own_time() ? Schedule::kKept : Schedule::kShifted) {}
 
   MotionResult run();
 
@@ -51,6 +52,7 @@ class Motion {
   bool exchange(trace::Sample& sample);
   void guard_supply();
   void record(const trace::Sample& sample);
+  void pass_over_missed();
   bool wait_on_path();
   void trip(safety::Trip trip);
   MotionEnd failed() const;
@@ -209,10 +211,28 @@ bool Motion::wait_on_path() {
   return is_fine;
 }
 
+/// Wall clock of a machine whose time passes by itself: the set points of missed periods are passed
+/// over, so that this period's is where the table should be by now.
+void Motion::pass_over_missed() {
+  const double pieces = wake_up_.missed + 1.0;
+  for (int i = 1; i <= wake_up_.missed; ++i) {
+    guard_supply();
+    if (cycle_.prepare() != interpolator::Status::kMoving) {
+      return;
+    }
+    trace::Sample sample;
+    cycle_.pass_over(sample, i / pieces);
+    record(sample);
+  }
+}
+
 /// One turn of the loop; the end of the motion, or nothing.
 std::optional<MotionEnd> Motion::follow_path() {
-  if (pace_.is_wall_clock && !begin_period()) {
-    return MotionEnd::kMachineError;
+  if (pace_.is_wall_clock) {
+    if (!begin_period()) {
+      return MotionEnd::kMachineError;
+    }
+    pass_over_missed();
   }
   guard_supply();
   const interpolator::Status status = cycle_.prepare();

@@ -7,13 +7,17 @@ namespace twin::runtime {
 namespace {
 
 constexpr double kSPerNs = 1e-9;
+constexpr std::int64_t kMostMissed = 1'000'000;
 
 }  // namespace
 
-Pacer::Pacer(Clock& clock, double period, const RealtimeSettings& settings) noexcept
+Pacer::Pacer(Clock& clock, double period, const RealtimeSettings& settings,
+             Schedule schedule) noexcept
     : clock_(clock),
       period_(std::llround(period / kSPerNs)),
+      schedule_(schedule),
       deadline_(clock.now()),
+      intended_(deadline_),
       begun_(deadline_),
       max_in_a_row_(settings.max_late_periods),
       max_stall_(settings.max_stall) {}
@@ -23,23 +27,28 @@ WakeUp Pacer::wait() noexcept {
   clock_.sleep_until(deadline_);
   const std::int64_t now = clock_.now();
   latency_ = static_cast<double>(now - deadline_) * kSPerNs;
-  const WakeUp wake_up{latency_, static_cast<double>(now - begun_) * kSPerNs};
+  WakeUp wake_up{latency_, static_cast<double>(now - begun_) * kSPerNs};
   begun_ = now;
+  intended_ = deadline_;
   worst_latency_ = std::max(worst_latency_, latency_);
-  if (now - deadline_ >= period_) {
-    ++late_periods_;
-    ++late_in_a_row_;
+  const std::int64_t missed = (now - deadline_) / period_;
+  if (missed < 1) {
+    late_in_a_row_ = 0;
+    return wake_up;
+  }
+  ++late_periods_;
+  ++late_in_a_row_;
+  if (schedule_ == Schedule::kShifted) {
     deadline_ = now;
   } else {
-    late_in_a_row_ = 0;
+    deadline_ += missed * period_;
+    wake_up.missed = static_cast<int>(std::min<std::int64_t>(missed, kMostMissed));
   }
   return wake_up;
 }
 
 double Pacer::since_deadline() const noexcept {
-  // After a late wake-up the schedule has been shifted; its latency still belongs to the period.
-  const double shift = deadline_ == begun_ ? latency_ : 0.0;
-  return static_cast<double>(clock_.now() - deadline_) * kSPerNs + shift;
+  return static_cast<double>(clock_.now() - intended_) * kSPerNs;
 }
 
 std::optional<safety::Trip> Pacer::overrun() const noexcept {

@@ -13,18 +13,25 @@ namespace twin::runtime {
 struct WakeUp {
   double latency = 0.0;   ///< after its deadline [s]
   double interval = 0.0;  ///< since the period before began [s]
+  int missed = 0;         ///< periods before it that never began; Schedule::kKept only
+};
+
+/// What becomes of the deadlines after a late period.
+enum class Schedule : std::uint8_t {
+  kShifted,  ///< the next is a period after this wake-up: for a machine whose time passes in read()
+  kKept,     ///< they stay where they are and some are missed: for one whose time passes by itself
 };
 
 /// Wakes up at the multiples of a period.
 ///
-/// A wake-up at or past the next deadline is a late period. Then the schedule is shifted: the next
-/// deadline is a period after this wake-up, so a stall is never made up for by a burst of short
-/// periods. The path takes no notice, only the wall clock does: set points are counted in periods.
+/// A wake-up at or past the next deadline is a late period. It is never made up for by a burst of
+/// short periods: the schedule is shifted, or the periods in between are missed.
 class Pacer {
  public:
   /// @param clock   outlives the pacer; the first deadline is one period after now
   /// @param period  [s]
-  Pacer(Clock& clock, double period, const RealtimeSettings& settings) noexcept;
+  Pacer(Clock& clock, double period, const RealtimeSettings& settings,
+        Schedule schedule = Schedule::kShifted) noexcept;
 
   /// Sleeps until the next deadline. Real-time safe.
   WakeUp wait() noexcept;
@@ -39,8 +46,10 @@ class Pacer {
 
  private:
   Clock& clock_;
-  std::int64_t period_;    // [ns]
-  std::int64_t deadline_;  // of the running period [ns]
+  std::int64_t period_;  // [ns]
+  Schedule schedule_;
+  std::int64_t deadline_;  // the last [ns]
+  std::int64_t intended_;  // when the running period was to begin [ns]
   std::int64_t begun_;     // when it began [ns]
   int max_in_a_row_;
   double max_stall_;  // [s]

@@ -77,8 +77,10 @@ Expected<void> Recorder::take(const trace::Sample& sample) {
       tracking_error_[static_cast<std::size_t>(i)].add(
           std::abs(sample.command[i] - sample.encoder[i]));
     }
-    cycle_time_.add(sample.cycle_time);
-    if (options_.is_wall_clock) {
+    if (!sample.is_passed_over) {
+      cycle_time_.add(sample.cycle_time);
+    }
+    if (options_.is_wall_clock && !sample.is_passed_over) {
       timing_.add(sample);
     }
   }

@@ -33,6 +33,11 @@ struct AxisView {
   bool limit_negative = false;  ///< N-OT
 };
 
+/// True where periods before this one were missed.
+constexpr bool is_late(const AxisView& view, double period) noexcept {
+  return view.interval > 1.5 * period;
+}
+
 /// What a monitor found in one period.
 struct Finding {
   Kind kind;

@@ -11,14 +11,15 @@ namespace twin::safety {
 /// Counts that stand while the command moves: a broken encoder wire, a stuck counter.
 ///
 /// Looks at the range that the command has covered since the counts last changed, so that a command
-/// that swings within less than a count is none.
+/// that swings within less than a count is none. After a late period it begins anew: the command
+/// has gone on by the clock, and the counts may be older than that.
 class FrozenEncoder {
  public:
   FrozenEncoder(const AxisFacts& axis, const Settings& settings) noexcept
-      : limit_(settings.frozen_encoder + 2.0 * std::abs(axis.mm_per_count)) {}
+      : period_(axis.period), limit_(settings.frozen_encoder + 2.0 * std::abs(axis.mm_per_count)) {}
 
   std::optional<Finding> check(const AxisView& view) noexcept {
-    if (!has_last_ || view.counts != counts_) {
+    if (!has_last_ || view.counts != counts_ || is_late(view, period_)) {
       has_last_ = true;
       counts_ = view.counts;
       lowest_ = highest_ = view.command;
@@ -34,6 +35,7 @@ class FrozenEncoder {
   }
 
  private:
+  double period_;         // [s]
   double limit_;          // [mm]
   double lowest_ = 0.0;   // command since the counts changed [mm]
   double highest_ = 0.0;  // [mm]

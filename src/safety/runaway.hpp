@@ -16,11 +16,14 @@ namespace twin::safety {
 ///   the measured position goes against u: w += -dy sign(u), never below 0;
 ///   the tracking error e is one that u should make smaller: e u > 0.
 /// Trips when w exceeds half the limit and |e| the limit. A sound axis runs against u for some
-/// milliseconds after a reversal, because it lags; its error is small then.
+/// milliseconds after a reversal, because it lags; its error is small then. It also runs on while a
+/// period is late and is called back then, so nothing counts for kAfterLate after a late period;
+/// the tracking error's limit stands meanwhile.
 class Runaway {
  public:
   Runaway(const AxisFacts& axis, const Settings& settings) noexcept
-      : mm_per_s_per_volt_(axis.mm_per_s_per_volt),
+      : period_(axis.period),
+        mm_per_s_per_volt_(axis.mm_per_s_per_volt),
         limit_(std::max(settings.runaway, kLeastCounts * std::abs(axis.mm_per_count))) {}
 
   std::optional<Finding> check(const AxisView& view) noexcept {
@@ -28,6 +31,10 @@ class Runaway {
     const double u = last_velocity_;
     if (std::abs(u) > kLeastVelocity) {
       wrong_way_ = std::max(0.0, wrong_way_ - std::copysign(1.0, u) * step);
+    }
+    after_late_ = is_late(view, period_) ? kAfterLate : std::max(0.0, after_late_ - view.interval);
+    if (after_late_ > 0.0) {
+      wrong_way_ = 0.0;
     }
     has_last_ = true;
     last_measured_ = view.measured;
@@ -43,8 +50,12 @@ class Runaway {
   static constexpr double kLeastCounts = 4.0;
   static constexpr double kLeastVelocity = 1.0;  // below it u is offset and hum [mm/s]
 
+  static constexpr double kAfterLate = 0.02;  // [s]
+
+  double period_;  // [s]
   double mm_per_s_per_volt_;
   double limit_;                // [mm]
+  double after_late_ = 0.0;     // left of kAfterLate [s]
   double wrong_way_ = 0.0;      // w [mm]
   double last_measured_ = 0.0;  // [mm]
   double last_velocity_ = 0.0;  // u [mm/s]

@@ -12,6 +12,10 @@
 #include "gcode/reader.hpp"
 #include "hal/ideal/ideal_machine.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
+#include "hal/rig/boards/emulated_pci1716.hpp"
+#include "hal/rig/boards/emulated_pci1784.hpp"
+#include "hal/rig/register_cards.hpp"
+#include "hal/rig/rig_machine.hpp"
 #include "runtime/cycle.hpp"
 #include "runtime/planning.hpp"
 
@@ -127,7 +131,45 @@ void interpolate_servo_and_monitors(benchmark::State& state) {
   }
 }
 
-/// The same with the simulated table: ten physics steps of 0.1 ms a period.
+/// The whole cycle of the rig on emulated boards that nothing moves: latch, two counters,
+/// interpolate, servo, monitors, digital outputs, two converters. What is left out is the bus.
+void whole_period_on_the_rig(benchmark::State& state) {
+  LoopingSource source(plan_of_circle());
+  interpolator::Interpolator interpolator(source, 0.001);
+  namespace rig = hal::rig;
+  rig::BoardRegisters boards;
+  rig::power_on(boards, 0, 0);
+  boards.pci1716.digital_in = 0xFF;  // ready, no alarm, limit switches closed
+  const rig::RigSettings settings;
+  const auto open = [&] {
+    return rig::RegisterCards::open(std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
+                                    std::make_unique<rig::EmulatedPci1784>(boards.pci1784),
+                                    settings);
+  };
+  rig::RigMachine machine(settings, {{1e-3, 1e-3}, {100.0, 100.0}}, open);
+  if (!machine.configure(0.001)) {
+    state.SkipWithError("no machine");
+    return;
+  }
+  safety::Settings blind;  // the table does not follow
+  blind.tracking_error = blind.runaway = blind.frozen_encoder = blind.saturation_time = 1e12;
+  Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001, blind);
+  trace::Sample sample;
+  if (!machine.activate() || cycle.hold() != hal::Status::kOk) {
+    state.SkipWithError("no machine");
+    return;
+  }
+  for (auto _ : state) {
+    cycle.prepare();
+    if (cycle.exchange(sample) != hal::Status::kOk) {
+      state.SkipWithError("the rig failed");
+      return;
+    }
+    benchmark::DoNotOptimize(sample);
+  }
+}
+
+/// With the simulated table: ten physics steps of 0.1 ms a period.
 void whole_period_on_the_table(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
   interpolator::Interpolator interpolator(source, 0.001);
@@ -153,6 +195,7 @@ void whole_period_on_the_table(benchmark::State& state) {
 BENCHMARK(interpolate);
 BENCHMARK(interpolate_and_servo);
 BENCHMARK(interpolate_servo_and_monitors);
+BENCHMARK(whole_period_on_the_rig);
 BENCHMARK(whole_period_on_the_table);
 
 }  // namespace

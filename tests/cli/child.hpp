@@ -31,6 +31,7 @@ class Child {
   ~Child();
 
   void signal(int number) const;
+  pid_t pid() const { return pid_; }
   ChildResult wait();
 
  private:

@@ -11,6 +11,7 @@
 #include "tests/hal/count_new.hpp"
 #include "tests/hal/position_loop.hpp"
 #include "tests/hal/table_files.hpp"
+#include "tests/hal_rig/emulated_machine.hpp"
 
 // What every machine must do, whatever is behind its wires.
 namespace twin::hal {
@@ -33,6 +34,13 @@ std::unique_ptr<Machine> make_mujoco(const char* model) {
   TableParams params;
   params.model = mjcf_file(model);
   return std::make_unique<MujocoMachine>(params);
+}
+
+std::unique_ptr<Machine> make_rig() {
+  const TableParams table = testing::default_table();
+  const rig::RigSettings settings;
+  return rig::testing::make_emulated(table, std::make_shared<rig::EmulatedRig>(table, settings),
+                                     settings);
 }
 
 class MachineContract : public ::testing::TestWithParam<Kind> {
@@ -191,8 +199,8 @@ INSTANTIATE_TEST_SUITE_P(
     Machines, MachineContract,
     ::testing::Values(Kind{"Ideal", [] { return std::make_unique<IdealMachine>(); }},
                       Kind{"Mujoco", [] { return make_mujoco("xy_table.xml"); }},
-                      Kind{"MujocoCompliant",
-                           [] { return make_mujoco("xy_table_compliant.xml"); }}),
+                      Kind{"MujocoCompliant", [] { return make_mujoco("xy_table_compliant.xml"); }},
+                      Kind{"EmulatedRig", make_rig}),
     [](const ::testing::TestParamInfo<Kind>& kind) { return kind.param.name; });
 
 TEST(IdealMachine, TruthIsTheReferenceOfTheSamePeriod) {

@@ -7,24 +7,25 @@
 #include "hal/rig/io_port/port_address.hpp"
 #include "hal/rig/io_port/sysfs_port.hpp"
 #include "tests/hal_rig/as_nobody.hpp"
-#include "tests/hal_rig/temp_folder.hpp"
+#include "tests/runtime/temp_folder.hpp"
+#include "tests/trace/files.hpp"
 
 namespace twin::hal::rig {
 namespace {
 
+using test::TempFolder;
 using testing::AsNobody;
 using ::testing::HasSubstr;
-using testing::TempFolder;
 
 TEST(SysfsPort, AccessesAreAsWideAsCalledAndAtTheirOffset) {
   const TempFolder folder;
-  const std::string file = folder.write("resource2", std::string(16, '\0'));
+  const std::string file = folder.put("resource2", std::string(16, '\0'));
   const auto port = SysfsPort::open(file);
   ASSERT_TRUE(port);
   (*port)->write8(1, 0xAB);
   (*port)->write16(4, 0x1234);
   (*port)->write32(8, 0xDEADBEEF);
-  const std::string bytes = folder.read("resource2");
+  const std::string bytes = test::content(folder / "resource2");
   const std::string expected("\0\xAB\0\0\x34\x12\0\0\xEF\xBE\xAD\xDE\0\0\0\0", 16);
   EXPECT_EQ(bytes, expected);
   EXPECT_EQ((*port)->read8(1), 0xAB);
@@ -35,7 +36,7 @@ TEST(SysfsPort, AccessesAreAsWideAsCalledAndAtTheirOffset) {
 
 TEST(SysfsPort, AReadBeyondTheEndIsAllOnesAndStaysAnError) {
   const TempFolder folder;
-  const auto port = SysfsPort::open(folder.write("resource2", "abc"));
+  const auto port = SysfsPort::open(folder.put("resource2", "abc"));
   ASSERT_TRUE(port);
   EXPECT_EQ((*port)->read32(0), 0xFFFFFFFF) << "three of four bytes are none";
   EXPECT_EQ((*port)->error(), EIO);
@@ -63,7 +64,7 @@ TEST(SysfsPort, AFileThatIsNotThereIsNamed) {
 
 TEST(SysfsPort, MissingPermissionSaysWhatToDo) {
   const TempFolder folder;
-  const std::string file = folder.write("resource2", "abcd");
+  const std::string file = folder.put("resource2", "abcd");
   std::filesystem::permissions(file, std::filesystem::perms::none);
   const AsNobody nobody;
   const auto port = SysfsPort::open(file);
@@ -112,7 +113,7 @@ TEST(PortAddress, RefusesOtherTexts) {
 TEST(PortAddress, OpensThePortItNames) {
   const TempFolder folder;
   const auto port =
-      open_port({Access::kSysfs, folder.write("resource2", std::string("\x34\x12", 2)), 0});
+      open_port({Access::kSysfs, folder.put("resource2", std::string("\x34\x12", 2)), 0});
   ASSERT_TRUE(port);
   EXPECT_EQ((*port)->read16(0), 0x1234);
   EXPECT_FALSE(open_port({Access::kSysfs, "/no/such/file", 0}));

@@ -4,7 +4,8 @@
 
 #include <string>
 
-#include "tests/hal_rig/temp_folder.hpp"
+#include "tests/runtime/temp_folder.hpp"
+#include "tests/trace/files.hpp"
 
 namespace twin::hal::rig::testing {
 
@@ -12,7 +13,7 @@ namespace twin::hal::rig::testing {
 class SysfsTree {
  public:
   std::string root() const { return folder_.path().string(); }
-  const TempFolder& folder() const { return folder_; }
+  const test::TempFolder& folder() const { return folder_; }
   static std::string inside(const std::string& address, const std::string& file) {
     return "bus/pci/devices/" + address + "/" + file;
   }
@@ -32,10 +33,10 @@ class SysfsTree {
     put(address, "resource2", registers);
   }
   void put(const std::string& address, const std::string& file, const std::string& text) const {
-    folder_.write(inside(address, file), text);
+    folder_.put(inside(address, file), text);
   }
   std::string get(const std::string& address, const std::string& file) const {
-    return folder_.read(inside(address, file));
+    return test::content(folder_ / inside(address, file));
   }
   void bind(const std::string& address, const std::string& driver) const {
     std::filesystem::create_directory_symlink("../../../../bus/pci/drivers/" + driver,
@@ -43,7 +44,7 @@ class SysfsTree {
   }
 
  private:
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 }  // namespace twin::hal::rig::testing

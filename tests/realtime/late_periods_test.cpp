@@ -63,6 +63,33 @@ TEST_F(LatePeriods, SetPointsTakeNoNoticeOfAFew) {
   EXPECT_EQ(way(), on_time);
 }
 
+TEST_F(LatePeriods, MachineWhoseTimeGoesOnIsSentWhereItShouldBeByNow) {
+  ASSERT_EQ(run().end, MotionEnd::kDone);
+  const std::vector<double> on_time = way();
+  samples.reset();
+  machine.references.clear();
+  machine.info_.keeps_own_time = true;
+  constexpr std::int64_t kLate = 100;  // sleep that ends 4.5 periods late
+  const std::int64_t first = clock.sleeps;
+  const MotionResult late =
+      run([&](std::int64_t n) { return n - first == kLate ? 4 * kMs + kMs / 2 : 0; });
+  EXPECT_EQ(late.end, MotionEnd::kDone);
+  EXPECT_EQ(late.late_periods, 1);
+  // Four set points were passed over; all others came at their time.
+  std::vector<double> expected = on_time;
+  expected.erase(expected.begin() + kLate, expected.begin() + kLate + 4);
+  EXPECT_EQ(way(), expected);
+  // The trace has a row for every one of them.
+  trace::Sample sample;
+  std::int64_t rows = 0;
+  std::int64_t passed_over = 0;
+  while (samples.pop(sample)) {
+    EXPECT_NEAR(sample.t, 1e-3 * static_cast<double>(rows++), 1e-9);
+    passed_over += sample.is_passed_over ? 1 : 0;
+  }
+  EXPECT_EQ(passed_over, 4);
+}
+
 TEST_F(LatePeriods, SeveralInARowBrakeOnThePathAndEnd) {
   const MotionResult result = run([](std::int64_t n) { return n >= 150 ? 2 * kMs : 0; });
   ASSERT_EQ(result.end, MotionEnd::kTripped);

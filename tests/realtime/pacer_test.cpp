@@ -63,6 +63,20 @@ TEST_F(PacerTest, ABeginAtTheNextDeadlineIsOneLatePeriodAndShiftsTheSchedule) {
   EXPECT_NEAR(pacer.worst_latency(), 0.0055, 1e-12);
 }
 
+TEST_F(PacerTest, AScheduleThatIsKeptMissesPeriodsAndStaysOnItsMultiples) {
+  Pacer pacer(clock, 0.001, settings, Schedule::kKept);
+  const std::int64_t start = clock.time;
+  delay(1, 5 * kMs + kMs / 2);
+  EXPECT_EQ(pacer.wait().missed, 0);
+  const WakeUp late = pacer.wait();
+  EXPECT_EQ(late.missed, 5);
+  EXPECT_NEAR(late.latency, 0.0055, 1e-12);
+  EXPECT_NEAR(pacer.since_deadline(), 0.0055, 1e-12);
+  EXPECT_EQ(pacer.wait().missed, 0);
+  EXPECT_EQ(clock.time, start + 8 * kMs);
+  EXPECT_EQ(pacer.late_periods(), 1);
+}
+
 TEST_F(PacerTest, OnlyLatePeriodsInARowAreAnOverrun) {
   Pacer pacer(clock, 0.001, settings);
   clock.lateness = [](std::int64_t n) { return n % 3 == 2 ? 0 : 2 * kMs; };  // two of three

@@ -21,7 +21,7 @@ struct SharedBlock {
   std::atomic<pid_t> emulator{0};
   std::atomic<pid_t> controller{0};           ///< 0: none is attached
   std::atomic<bool> has_ended{false};         ///< the emulator has ended by itself
-  std::atomic<std::int64_t> monotonic_ns{0};  ///< CLOCK_MONOTONIC of the last step [ns]
+  std::atomic<std::int64_t> monotonic_ns{0};  ///< CLOCK_MONOTONIC up to which time has passed [ns]
   std::atomic<double> plant_time{0.0};        ///< simulated time [s]
   std::array<std::atomic<double>, kServoAxes> table_position{};  ///< true position [mm]
   std::atomic<double> pen_reference{0.0};                        ///< by the controller [mm]

@@ -10,6 +10,7 @@
 
 #include "hal/rig/boards/shared_registers.hpp"
 #include "hal/rig/emulator/emulated_rig.hpp"
+#include "hal/rig/emulator/event_teller.hpp"
 
 namespace twin::hal::rig {
 namespace {
@@ -35,7 +36,7 @@ class Server {
          const std::function<void(std::string_view)>& tell)
       : shared_(std::move(shared)),
         rig_(table, wiring, settings.faults, &shared_->boards()),
-        tell_(tell),
+        teller_(tell),
         step_(settings.step),
         step_ns_(nanoseconds(settings.step)) {}
 
@@ -50,7 +51,7 @@ class Server {
 
   std::unique_ptr<SharedRegisters> shared_;
   EmulatedRig rig_;
-  const std::function<void(std::string_view)>& tell_;
+  EventTeller teller_;
   double step_;                 // [s]
   std::int64_t step_ns_;        // [ns]
   std::int64_t next_ = 0;       // when the next step is due [ns]
@@ -65,13 +66,13 @@ void Server::add(EventKind kind, std::int64_t value) {
 }
 
 void Server::tell_events() {
-  EventLog& events = rig_.events();
+  const EventLog& events = rig_.events();
   if (told_ < events.first()) {
     result_.unread_events += events.first() - told_;
     told_ = events.first();
   }
   for (; told_ < events.written(); ++told_) {
-    tell_(to_string(events[told_]));
+    result_.unread_events += teller_.push(events[told_]) ? 0 : 1;
   }
 }
 
@@ -109,7 +110,7 @@ Expected<void> Server::advance(std::int64_t now) {
     block.table_position[axis].store(truth.table_position[axis], std::memory_order_relaxed);
   }
   block.plant_time.store(rig_.time(), std::memory_order_relaxed);
-  block.monotonic_ns.store(now, std::memory_order_relaxed);
+  block.monotonic_ns.store(next_, std::memory_order_release);
   ++result_.steps;
   result_.late_steps += now - next_ > step_ns_ ? 1 : 0;
   next_ += step_ns_;

@@ -1,5 +1,9 @@
 #include "hal/rig/emulator/shared_bench.hpp"
 
+#include <time.h>
+
+#include "hal/rig/emulator/event_log.hpp"
+
 namespace twin::hal::rig {
 
 Expected<void> SharedBench::power_on(double /*period*/) {
@@ -7,6 +11,25 @@ Expected<void> SharedBench::power_on(double /*period*/) {
     return fail(ErrorCode::kMachine, "the emulator of the rig has ended");
   }
   return {};
+}
+
+bool SharedBench::advance() noexcept {
+  constexpr std::int64_t kUsualLag = 1'000'000;  // [ns]; steps are shorter
+  constexpr timespec kNap{0, 20'000};
+  const std::atomic<std::int64_t>& passed = shared_->block().monotonic_ns;
+  const std::int64_t now = monotonic_ns();
+  while (passed.load(std::memory_order_acquire) < now - kUsualLag) {
+    if (passed.load() == given_up_at_) {
+      return true;  // it stands: what a dead plant does is for the monitors to see
+    }
+    if (monotonic_ns() - now > kLongestWait) {
+      given_up_at_ = passed.load();
+      return true;
+    }
+    ::nanosleep(&kNap, nullptr);
+  }
+  given_up_at_ = -1;
+  return true;
 }
 
 Truth SharedBench::truth() const noexcept {

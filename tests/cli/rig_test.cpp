@@ -1,0 +1,113 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.hpp"
+#include "tests/runtime/trace_rows.hpp"
+#include "tests/trace/files.hpp"
+
+// The switch --hal rig and the commands of `twin rig`, on emulated boards.
+namespace twin::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Rig : public test::CliTest {
+ protected:
+  /// No card is here, nor an emulator of this name.
+  static std::vector<std::string> nowhere(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--rig-name", "/twin-nobody", "--set", "rig.sysfs=nowhere"});
+    return arguments;
+  }
+};
+
+TEST_F(Rig, SwitchGivesTheSameTraceByteForByte) {
+  for (const char* program : {"oxalis.nc", "mixed.nc"}) {
+    ASSERT_EQ(twin({"run", program, "--out", "a", "--no-plots", "--quiet"}).status, 0);
+    const auto rig = twin({"run", program, "--hal", "rig", "--rig", "emulated", "--out", "b",
+                           "--no-plots", "--quiet"});
+    ASSERT_EQ(rig.status, 0) << rig.err;
+    EXPECT_EQ(test::content(folder / "a/trace.csv"), test::content(folder / "b/trace.csv"));
+    const auto summary = nlohmann::json::parse(test::content(folder / "b/summary.json"));
+    EXPECT_EQ(summary["hal"], "rig");
+    EXPECT_EQ(summary["simulated"], true);
+  }
+}
+
+TEST_F(Rig, WithoutCardsOneLineNamesWhatWasLookedFor) {
+  const auto run = twin(nowhere({"run", "ok.nc", "--hal", "rig", "--out", "out"}));
+  expect_refusal(run, 1, "PCI-1716 (13fe:1716) with board ID 0 under nowhere/bus/pci/devices");
+  EXPECT_THAT(run.err, HasSubstr("twin rig emulate"));
+  EXPECT_FALSE(exists("out/trace.partial.csv"));
+  for (const char* command : {"probe", "monitor", "check"}) {
+    expect_refusal(twin(nowhere({"rig", command})), 1, "PCI-1716 (13fe:1716)");
+  }
+}
+
+TEST_F(Rig, EmulatorThatIsNotThereIsSaid) {
+  expect_refusal(twin({"run", "ok.nc", "--hal", "rig", "--rig", "process", "--rig-name",
+                       "/twin-nobody", "--out", "out"}),
+                 1, "/twin-nobody");
+}
+
+TEST_F(Rig, ProbeShowsCardsAndInputs) {
+  const auto result = twin({"rig", "probe", "--rig", "emulated"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("simulated"), HasSubstr("PCI-1716"),
+                                HasSubstr("PCI-1784"), HasSubstr("alarm none")));
+}
+
+TEST_F(Rig, MonitorShowsCountsAndEnds) {
+  const auto result = twin({"rig", "monitor", "--rig", "emulated", "--for", "0.25"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("simulated"), HasSubstr("counts"), HasSubstr("mm")));
+}
+
+TEST_F(Rig, CheckFindsASoundTableSound) {
+  const auto result = twin({"rig", "check", "--rig", "emulated"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("simulated"), HasSubstr("sound")));
+}
+
+TEST_F(Rig, CheckNamesTheAxisWhoseEncoderIsTheWrongWayRound) {
+  const auto result = twin({"rig", "check", "--rig", "emulated", "--fault", "encoder_swapped:y@0"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("rig.y.encoder_reversed"));
+  EXPECT_THAT(result.err, HasSubstr("axis y must be put right"));
+}
+
+TEST_F(Rig, JogMovesOneAxisAndLeavesItsTrace) {
+  const auto result = twin({"rig", "jog", "--rig", "emulated", "--axis", "y", "--distance-mm", "-1",
+                            "--feedrate-mm-per-min", "60", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const test::TraceRows rows(folder / "out/trace.csv");
+  EXPECT_NEAR(rows.last("y_enc_mm"), -1.0, 0.05);
+  EXPECT_NEAR(rows.last("x_enc_mm"), 0.0, 0.05);
+}
+
+TEST_F(Rig, JogRefusesWhatIsNoMove) {
+  expect_refusal(twin({"rig", "jog", "--rig", "emulated", "--axis", "z", "--distance-mm", "1",
+                       "--feedrate-mm-per-min", "60"}),
+                 2, "--axis");
+  expect_refusal(twin({"rig", "jog", "--rig", "emulated", "--axis", "x"}), 2, "--distance-mm");
+  expect_refusal(twin({"rig", "jog", "--rig", "emulated", "--axis", "x", "--distance-mm", "500",
+                       "--feedrate-mm-per-min", "60", "--out", "out"}),
+                 1, "travel");
+}
+
+TEST_F(Rig, HomeEndsAtTheZeroOfTheTable) {
+  // The switch is at -6 mm, the index in the middle of a revolution: at -5 mm.
+  const auto result = twin({"rig", "home", "--rig", "emulated", "--axis", "x", "--out", "out",
+                            "--set", "table.x.travel=6", "--set", "home.x.zero=5"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("towards N-OT"), HasSubstr("to the index"),
+                                HasSubstr("stands at its zero (simulated)")));
+}
+
+TEST_F(Rig, UnknownCommandIsBadUsage) {
+  expect_refusal(twin({"rig", "prob"}), 2, "did you mean probe?");
+  expect_refusal(twin({"rig"}), 2, "probe, monitor, check, jog, home, emulate");
+  expect_refusal(twin({"rig", "probe", "--moter"}), 2, "unknown option --moter");
+}
+
+}  // namespace
+}  // namespace twin::cli

@@ -1,0 +1,146 @@
+#include <csignal>
+#include <fstream>
+
+#include "tests/faults/rig_processes.hpp"
+#include "tests/runtime/trace_rows.hpp"
+
+// What happens to the outputs when a process of the rig dies, hangs or is told to stop: emulator
+// and controller as two programs on the wall clock, seen from the emulator's log. A system under
+// load stands still by itself for tens of milliseconds; so what has to be quick may be tried a few
+// times.
+namespace twin::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kAttempts = 6;
+constexpr double kInTime = 0.025;  // [s]
+
+/// A rig whose controller follows a long path.
+class ProcessFault : public ::testing::Test {
+ protected:
+  void start(const std::vector<std::string>& more = kPatient) {
+    rig.emplace();
+    rig->start_emulator();
+    rig->start_controller("long.nc", more);
+    ASSERT_TRUE(rig->waits_for_motion()) << rig->log();
+  }
+  void expect_partial_files() const {
+    EXPECT_TRUE(std::filesystem::exists(rig->results() / "trace.partial.csv"));
+    EXPECT_FALSE(std::filesystem::exists(rig->results() / "trace.csv"));
+  }
+
+  std::optional<RigProcesses> rig;
+};
+
+class FatalSignal : public ProcessFault, public ::testing::WithParamInterface<int> {};
+
+TEST_P(FatalSignal, OutputsAreSafeWithinTwentyFiveMilliseconds) {
+  double best = 1.0;
+  for (int i = 0; i < kAttempts && best > kInTime; ++i) {
+    start();
+    const double before = monotonic();
+    rig->controller->signal(GetParam());
+    const auto safe = rig->safe_after(before);
+    ASSERT_TRUE(safe) << rig->log();
+    best = std::min(best, *safe);
+    EXPECT_EQ(rig->controller->wait().status, 128 + GetParam());
+    expect_partial_files();
+  }
+  EXPECT_LE(best, kInTime);
+  RecordProperty("safe_after_ms", std::to_string(best * 1e3));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, FatalSignal,
+                         ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGFPE, SIGQUIT),
+                         [](const auto& test) { return std::string(sigabbrev_np(test.param)); });
+
+TEST_F(ProcessFault, ControllerThatHangsIsMadeSafeByTheGuardAndStaysSo) {
+  std::vector<std::string> settings = kPatient;
+  settings.back() = "safety.heartbeat_timeout_ms=20";
+  double best = 1.0;
+  for (int i = 0; i < kAttempts && best > kInTime; ++i) {
+    start(settings);
+    const double before = monotonic();
+    rig->controller->signal(SIGSTOP);
+    const auto safe = rig->safe_after(before - 0.001);
+    ASSERT_TRUE(safe) << rig->log();
+    best = std::min(best, *safe);
+    rig->controller->signal(SIGCONT);
+    const auto result = rig->controller->wait();
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("the guard has made the outputs safe"));
+    EXPECT_FALSE(rig->time_of("digital outputs 0x0005", before)) << rig->log();
+    expect_partial_files();
+  }
+  EXPECT_LE(best, kInTime);
+  RecordProperty("safe_after_ms", std::to_string(best * 1e3));
+}
+
+class PoliteSignal : public ProcessFault, public ::testing::WithParamInterface<int> {};
+
+TEST_P(PoliteSignal, BrakesOnThePathAndLeavesTheOutputsSafe) {
+  start();
+  const double before = monotonic();
+  rig->controller->signal(GetParam());
+  const auto result = rig->controller->wait();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("interrupted: stopped on the path at t = "));
+  EXPECT_TRUE(rig->safe_after(before)) << rig->log();
+  expect_partial_files();
+  EXPECT_EQ(TraceRows(rig->results() / "trace.partial.csv").last("feedrate_mm_per_s"), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, PoliteSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& test) { return std::string(sigabbrev_np(test.param)); });
+
+TEST_F(ProcessFault, EmulatorThatIsKilledLooksLikeADeadEncoder) {
+  std::vector<std::string> settings = kPatient;
+  settings[3] = "safety.frozen_encoder=0.3";
+  start(settings);
+  rig->emulator->signal(SIGKILL);
+  const auto result = rig->controller->wait();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("axis x: encoder counts stand"));
+  EXPECT_THAT(result.err, HasSubstr("NC line"));
+  expect_partial_files();
+}
+
+TEST_F(ProcessFault, EmulatorThatEndsIsCardsThatAreGone) {
+  start();
+  rig->emulator->signal(SIGTERM);
+  EXPECT_EQ(rig->emulator->wait().status, 0);
+  const auto result = rig->controller->wait();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("no longer answers"));
+  expect_partial_files();
+}
+
+TEST_F(ProcessFault, WithoutItsGuardTheControllerStops) {
+  start();
+  // The guard is the controller's only child.
+  const std::string pid = std::to_string(rig->controller->pid());
+  std::ifstream children("/proc/" + pid + "/task/" + pid + "/children");
+  pid_t guard = 0;
+  ASSERT_TRUE(children >> guard);
+  const double before = monotonic();
+  kill(guard, SIGKILL);
+  const auto result = rig->controller->wait();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("the guard process is gone"));
+  EXPECT_TRUE(rig->safe_after(before)) << rig->log();
+}
+
+TEST_F(ProcessFault, SecondControllerIsRefused) {
+  start();
+  TempFolder folder;
+  folder.put("ok.nc", "G01 X1 F100\nM30\n");
+  const auto second = run_twin({"run", "ok.nc", "--hal", "rig", "--rig", "process", "--rig-name",
+                                rig->name(), "--out", "out"},
+                               {folder.path(), {}});
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.err, HasSubstr("controller"));
+}
+
+}  // namespace
+}  // namespace twin::test

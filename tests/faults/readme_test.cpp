@@ -1,0 +1,18 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/faults/fault_table.hpp"
+#include "tests/trace/files.hpp"
+
+namespace twin::test {
+namespace {
+
+TEST(FaultTableInReadme, HasTheRowsThatAreTested) {
+  const std::string readme = content(TWIN_SOURCE_DIR "/hal/README.md");
+  for (const FaultRow& row : kFaultRows) {
+    EXPECT_THAT(readme, ::testing::HasSubstr(to_markdown(row) + "\n"));
+  }
+}
+
+}  // namespace
+}  // namespace twin::test
