@@ -64,9 +64,12 @@ void write_log(rig::EmulatedRig& emulated, const std::filesystem::path& file) {
     text += to_string(events[i]) + '\n';
   }
   const rig::Pci1716Registers& card = emulated.boards().pci1716;
-  text +=
-      fmt::format("plant {:.6f} s: end, DAC 0 0x{:04X}, DAC 1 0x{:04X}, digital outputs 0x{:04X}\n",
-                  emulated.time(), card.dac[0].load(), card.dac[1].load(), card.digital_out.load());
+  const hal::Truth truth = emulated.truth();
+  text += fmt::format(
+      "plant {:.6f} s: end, table x {:.3f} mm, y {:.3f} mm, DAC 0 0x{:04X}, DAC 1 0x{:04X}, "
+      "digital outputs 0x{:04X}\n",
+      emulated.time(), truth.table_position[hal::kX], truth.table_position[hal::kY],
+      card.dac[0].load(), card.dac[1].load(), card.digital_out.load());
   if (auto written = write_whole_file(file, text); !written) {
     fmt::print(stderr, "twin: {}\n", to_string(written.error()));
   }

@@ -95,12 +95,21 @@ TEST_F(Rig, JogRefusesWhatIsNoMove) {
 }
 
 TEST_F(Rig, HomeEndsAtTheZeroOfTheTable) {
-  // The switch is at -6 mm, the index in the middle of a revolution: at -5 mm.
-  const auto result = twin({"rig", "home", "--rig", "emulated", "--axis", "x", "--out", "out",
-                            "--set", "table.x.travel=6", "--set", "home.x.zero=5"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, AllOf(HasSubstr("towards N-OT"), HasSubstr("to the index"),
-                                HasSubstr("stands at its zero (simulated)")));
+  // Switches at +-6 mm, an index in the middle of each revolution: at -5 and 5 mm.
+  for (const bool is_positive : {false, true}) {
+    const auto result = twin({"rig", "home", "--rig", "emulated", "--axis", "x", "--out", "out",
+                              "--rig-log", "log.txt", "--set", "table.x.travel=6", "--set",
+                              is_positive ? "home.x.switch=p-ot" : "home.x.switch=n-ot", "--set",
+                              is_positive ? "home.x.zero=-5" : "home.x.zero=5"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out,
+                AllOf(HasSubstr(is_positive ? "towards P-OT" : "towards N-OT"),
+                      HasSubstr("to the index"), HasSubstr("stands at its zero (simulated)")));
+    const std::string log = test::content(folder / "log.txt");
+    const std::size_t at = log.rfind("table x ");
+    ASSERT_NE(at, std::string::npos) << log;
+    EXPECT_NEAR(std::stod(log.substr(at + 8)), 0.0, 0.03) << log;
+  }
 }
 
 TEST_F(Rig, UnknownCommandIsBadUsage) {

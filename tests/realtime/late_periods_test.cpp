@@ -68,7 +68,7 @@ TEST_F(LatePeriods, MachineWhoseTimeGoesOnIsSentWhereItShouldBeByNow) {
   const std::vector<double> on_time = way();
   samples.reset();
   machine.references.clear();
-  machine.info_.keeps_own_time = true;
+  machine.keep_own_time();
   constexpr std::int64_t kLate = 100;  // sleep that ends 4.5 periods late
   const std::int64_t first = clock.sleeps;
   const MotionResult late =

@@ -29,6 +29,9 @@ class FakeMachine final : public hal::Machine {
   bool fails_to_activate = false;
   std::function<void(std::int64_t)> on_write;  ///< gets the number of the write, from 1
 
+  /// Its time passes by itself.
+  void keep_own_time() { info_.keeps_own_time = true; }
+
   std::vector<Vec3> references;  ///< set point of every period [mm]
   std::int64_t reads = 0;
   std::int64_t writes = 0;
