@@ -20,12 +20,10 @@ Expected<void> RigMachine::configure(double period) {
   if (!(period > 0.0) || !std::isfinite(period)) {
     return fail(ErrorCode::kMachine, fmt::format("period {} s is not above 0", period));
   }
-  // As with real cards, what is behind them goes on where it stood.
-  if (bench_ != nullptr && bench_period_ != period) {
+  if (bench_ != nullptr) {
     if (Expected<void> on = bench_->power_on(period); !on) {
       return on;
     }
-    bench_period_ = period;
   }
   Expected<std::unique_ptr<Cards>> cards = open_cards_();
   if (!cards) {

@@ -35,7 +35,6 @@ Status RigMachine::read(Inputs& inputs) noexcept {
     return stop_with(Fault::kGuard);
   }
   if (bench_ != nullptr && !bench_->advance()) {
-    bench_period_ = 0.0;
     return stop_with(Fault::kBench);
   }
   CardInputs card;

@@ -89,7 +89,6 @@ class RigMachine final : public Machine {
   std::unique_ptr<Cards> cards_;
   std::optional<EmergencyStop> emergency_;
   double period_ = 0.0;                          // [s]
-  double bench_period_ = 0.0;                    // the bench is on with it; 0: it is off [s]
   std::array<std::int64_t, kServoAxes> home_{};  // of the counters, set by activate() [counts]
   std::array<bool, kServoAxes> servo_on_{};      // as last written
   Truth origin_;                                 // of truth(), set by activate() [mm]

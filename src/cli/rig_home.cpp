@@ -7,6 +7,7 @@
 #include "cli/rig_machines.hpp"
 #include "cli/rig_motion.hpp"
 #include "commissioning/homing.hpp"
+#include "hal/kept_machine.hpp"
 
 namespace twin::cli {
 namespace {
@@ -115,7 +116,8 @@ Expected<void> home(const Options& options, const std::atomic<bool>& stop) {
   }
   const hal::Axis axis = options.axis == "x" ? hal::kX : hal::kY;
   const hal::AxisParams& table = machine->table.axis[axis];
-  Homing homing(options, *machine, **rig, stop);
+  hal::KeptMachine kept(**rig);
+  Homing homing(options, *machine, kept, stop);
   const auto homed =
       commissioning::home_axis(axis, machine->home[axis], 2.0 * table.travel, table.screw.lead,
                                [&homing](const HomingMove& move) { return homing.make(move); });

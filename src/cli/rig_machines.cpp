@@ -65,11 +65,13 @@ void write_log(rig::EmulatedRig& emulated, const std::filesystem::path& file) {
   }
   const rig::Pci1716Registers& card = emulated.boards().pci1716;
   const hal::Truth truth = emulated.truth();
+  const bool has_power = card.is_present.load();
   text += fmt::format(
-      "plant {:.6f} s: end, table x {:.3f} mm, y {:.3f} mm, DAC 0 0x{:04X}, DAC 1 0x{:04X}, "
-      "digital outputs 0x{:04X}\n",
-      emulated.time(), truth.table_position[hal::kX], truth.table_position[hal::kY],
-      card.dac[0].load(), card.dac[1].load(), card.digital_out.load());
+      "plant {:.6f} s: end, table x {:.3f} mm, y {:.3f} mm, {}\n", emulated.time(),
+      truth.table_position[hal::kX], truth.table_position[hal::kY],
+      has_power ? fmt::format("DAC 0 0x{:04X}, DAC 1 0x{:04X}, digital outputs 0x{:04X}",
+                              card.dac[0].load(), card.dac[1].load(), card.digital_out.load())
+                : "the PCI-1716 without power");
   if (auto written = write_whole_file(file, text); !written) {
     fmt::print(stderr, "twin: {}\n", to_string(written.error()));
   }

@@ -29,8 +29,8 @@ void print_axis(char name, const rig::AxisWiring& wiring, const rig::RigView& vi
   const rig::DriveInputs& drive = view.drives[axis];
   fmt::print("  axis {}    DAC {}, counter {}: {} counts\n", name, wiring.dac, wiring.counter,
              view.counts[axis]);
-  fmt::print("            alarm {}, servo ready {}, P-OT {}, N-OT {}, V-REF {}\n",
-             signal(wiring.alarm, drive.alarm, "ON (or wire open)", "none"),
+  fmt::print("            ALM {}, servo ready {}, P-OT {}, N-OT {}, V-REF {}\n",
+             signal(wiring.alarm, drive.alarm, "ALARM (or wire open)", "no alarm"),
              signal(wiring.ready, drive.ready, "yes", "no"),
              signal(wiring.limit_positive, drive.limit_positive, "REACHED (or wire open)", "free"),
              signal(wiring.limit_negative, drive.limit_negative, "REACHED (or wire open)", "free"),

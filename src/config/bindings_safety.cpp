@@ -14,6 +14,8 @@ void add_safety(std::vector<Binding>& list, safety::Settings& s) {
                   "how long it may be exceeded, up to twice its value", 1e3});
   list.push_back({section, "runaway", "mm", &s.runaway, 1e-3, 1e3,
                   "tracking error of an axis that moves against its drive command"});
+  list.push_back({section, "runaway_per_feedrate", "ms", &s.runaway_per_feedrate, 0.0, 1e4,
+                  "added to it per mm/s of feedrate, um", 1e3});
   list.push_back({section, "frozen_encoder", "mm", &s.frozen_encoder, 1e-3, 1e3,
                   "way of the set point on which the counts must change"});
   list.push_back({section, "count_step_ratio", "", &s.count_step_ratio, 1.0, 1e3,

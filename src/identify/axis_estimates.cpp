@@ -40,9 +40,7 @@ void AxisFitter::estimate_gains() {
     return;
   }
   const hal::AxisParams& axis = current_.table.axis[problem_.axis()];
-  GainFit gains =
-      fit_gains(problem_.records(), axis.mm_per_s_per_volt(),
-                current_.period);
+  GainFit gains = fit_gains(problem_.records(), axis.mm_per_s_per_volt(), current_.period);
   gains.gains.kp = std::max(gains.gains.kp, 0.0);
   gains.gains.kd = std::max(gains.gains.kd, 0.0);
   gains.gains.kf = std::max(gains.gains.kf, 0.0);

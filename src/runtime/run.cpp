@@ -113,8 +113,8 @@ void Run::move() {
   pace.realtime = request_.machine.realtime;
   pace.before_period = request_.hooks.before_period;
   pace.until = request_.until;
-  motion_ =
-      run_motion(cycle_, interpolator_, segments_, samples_, request_.machine.limits, pace, stop_);
+  const Limits& limits = request_.machine.limits;
+  motion_ = run_motion(cycle_, interpolator_, segments_, samples_, limits, pace, stop_);
 }
 
 /// Body of the motion thread: at its end the machine is off.
@@ -190,8 +190,8 @@ std::optional<Error> Run::failure() const {
       return error;
     }
   }
-  const auto at =
-      fmt::format("at t = {:.3f} s, NC line {}", recorder_.last().t, recorder_.last().line);
+  const trace::Sample& last = recorder_.last();
+  const auto at = fmt::format("at t = {:.3f} s, NC line {}", last.t, last.line);
   switch (motion_.end) {
     case MotionEnd::kDone:
       return std::nullopt;
@@ -256,10 +256,8 @@ Expected<RunResult> Run::execute() {
   result.met_at = motion_.met_at;
   result.last_at = recorder_.last().encoder;
   result.summary = summarise(wall_time);
-  if (!result.failure) {
-    if (auto committed = recorder_.commit(); !committed) {
-      result.failure = committed.error();
-    }
+  if (const auto saved = result.failure ? Expected<void>{} : recorder_.commit(); !saved) {
+    result.failure = saved.error();
   }
   if (result.failure) {
     recorder_.abandon();
@@ -278,21 +276,19 @@ Expected<RunResult> run_program(const RunRequest& request) {
   std::error_code code;
   std::filesystem::create_directories(request.directory / "plots", code);
   if (code) {
-    return tl::unexpected(Error{ErrorCode::kFile, "cannot make this folder: " + code.message(),
-                                request.directory.string(), 0, 0});
+    return file_error(request.directory, "make this folder", code.value());
   }
   hal::ActiveMachine machine(request.hal);
   if (auto started = machine.start(request.machine.period); !started) {
     return tl::unexpected(started.error());
   }
-  Recorder::Options recording;
-  recording.directory = request.directory;
-  recording.program = request.program;
-  recording.reader = options;
-  recording.limits = request.machine.limits;
-  recording.period = request.machine.period;
-  recording.has_machine = request.hal != nullptr;
-  recording.is_wall_clock = request.is_wall_clock;
+  const Recorder::Options recording{.directory = request.directory,
+                                    .program = request.program,
+                                    .reader = options,
+                                    .limits = request.machine.limits,
+                                    .period = request.machine.period,
+                                    .has_machine = request.hal != nullptr,
+                                    .is_wall_clock = request.is_wall_clock};
   auto recorder = Recorder::create(recording);
   if (!recorder) {
     return tl::unexpected(recorder.error());

@@ -24,6 +24,7 @@ class Runaway {
   Runaway(const AxisFacts& axis, const Settings& settings) noexcept
       : period_(axis.period),
         mm_per_s_per_volt_(axis.mm_per_s_per_volt),
+        per_feedrate_(settings.runaway_per_feedrate),
         limit_(std::max(settings.runaway, kLeastCounts * std::abs(axis.mm_per_count))) {}
 
   std::optional<Finding> check(const AxisView& view) noexcept {
@@ -40,8 +41,9 @@ class Runaway {
     last_measured_ = view.measured;
     last_velocity_ = view.volts * mm_per_s_per_volt_;
     const double error = view.command - view.measured;
-    if (wrong_way_ > 0.5 * limit_ && std::abs(error) > limit_ && error * last_velocity_ > 0.0) {
-      return Finding{Kind::kRunaway, std::abs(error), limit_};
+    const double limit = limit_ + per_feedrate_ * view.feedrate;
+    if (wrong_way_ > 0.5 * limit && std::abs(error) > limit && error * last_velocity_ > 0.0) {
+      return Finding{Kind::kRunaway, std::abs(error), limit};
     }
     return std::nullopt;
   }
@@ -54,7 +56,8 @@ class Runaway {
 
   double period_;  // [s]
   double mm_per_s_per_volt_;
-  double limit_;                // [mm]
+  double per_feedrate_;         // [s]
+  double limit_;                // at rest [mm]
   double after_late_ = 0.0;     // left of kAfterLate [s]
   double wrong_way_ = 0.0;      // w [mm]
   double last_measured_ = 0.0;  // [mm]

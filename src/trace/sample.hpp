@@ -23,7 +23,7 @@ struct Sample {
       0.0;  ///< wall-clock time of the cycle's computation [s]; not written to the trace
   double wake_up_latency = 0.0;  ///< on the wall clock: begin of the period after its deadline [s]
   double total_time = 0.0;       ///< on the wall clock: from the deadline to the written output [s]
-  bool is_passed_over = false;  ///< its period never began: measured values are interpolated
+  bool is_passed_over = false;   ///< its period never began: measured values are interpolated
 };
 
 }  // namespace twin::trace

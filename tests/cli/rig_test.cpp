@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.hpp"
+#include "tests/hal_rig/sysfs_tree.hpp"
 #include "tests/runtime/trace_rows.hpp"
 #include "tests/trace/files.hpp"
 
@@ -43,6 +44,51 @@ TEST_F(Rig, WithoutCardsOneLineNamesWhatWasLookedFor) {
   }
 }
 
+/// Cards that are plain files: they answer, and all their inputs are low.
+class RealCards : public Rig {
+ protected:
+  RealCards() {
+    tree.add("0000:03:00.0", 0x1716, 0);
+    tree.add("0000:03:01.0", 0x1784, 0);
+  }
+  std::vector<std::string> on_cards(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--rig", "cards", "--set", "rig.sysfs=" + tree.root()});
+    return arguments;
+  }
+  /// Both converters have never left 0 V.
+  void expect_zero_volts() const {
+    const std::string registers = tree.get("0000:03:00.0", "resource2");
+    EXPECT_EQ(registers.substr(0x0A, 6), std::string("\x00\x80\x00\x80\x01\x01", 6));
+  }
+
+  hal::rig::testing::SysfsTree tree;
+};
+
+TEST_F(RealCards, NothingIsOpenedBeforeTheUserSaysThatItMayMove) {
+  const std::string before = tree.get("0000:03:00.0", "resource2");
+  expect_refusal(twin(on_cards({"run", "ok.nc", "--hal", "rig", "--out", "out"})), 2,
+                 "--i-know-it-moves");
+  expect_refusal(twin(on_cards({"rig", "check"})), 2, "--i-know-it-moves");
+  expect_refusal(twin(on_cards({"rig", "home", "--axis", "x"})), 2, "--i-know-it-moves");
+  EXPECT_EQ(tree.get("0000:03:00.0", "resource2"), before);
+}
+
+TEST_F(RealCards, OpenAlarmLinesAreAlarmsAndNothingMoves) {
+  expect_refusal(
+      twin(on_cards({"run", "ok.nc", "--hal", "rig", "--out", "out", "--i-know-it-moves"})), 1,
+      "axis x");
+  expect_zero_volts();
+}
+
+TEST_F(RealCards, ProbeNamesThemAndWritesNoOutput) {
+  const std::string before = tree.get("0000:03:00.0", "resource2");
+  const auto result = twin(on_cards({"rig", "probe"}));
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("real cards"), HasSubstr("0000:03:00.0"),
+                                HasSubstr("ALM"), ::testing::Not(HasSubstr("simulated"))));
+  EXPECT_EQ(tree.get("0000:03:00.0", "resource2"), before);
+}
+
 TEST_F(Rig, EmulatorThatIsNotThereIsSaid) {
   expect_refusal(twin({"run", "ok.nc", "--hal", "rig", "--rig", "process", "--rig-name",
                        "/twin-nobody", "--out", "out"}),
@@ -53,7 +99,7 @@ TEST_F(Rig, ProbeShowsCardsAndInputs) {
   const auto result = twin({"rig", "probe", "--rig", "emulated"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("simulated"), HasSubstr("PCI-1716"),
-                                HasSubstr("PCI-1784"), HasSubstr("alarm none")));
+                                HasSubstr("PCI-1784"), HasSubstr("ALM no alarm")));
 }
 
 TEST_F(Rig, MonitorShowsCountsAndEnds) {

@@ -23,7 +23,7 @@ class ProcessFault : public ::testing::Test {
     rig.emplace();
     rig->start_emulator();
     rig->start_controller("long.nc", more);
-    ASSERT_TRUE(rig->waits_for_motion()) << rig->log();
+    ASSERT_TRUE(rig->waits_for_motion()) << rig->log() << rig->complaint();
   }
   void expect_partial_files() const {
     EXPECT_TRUE(std::filesystem::exists(rig->results() / "trace.partial.csv"));
@@ -139,7 +139,7 @@ TEST_F(ProcessFault, SecondControllerIsRefused) {
                                 rig->name(), "--out", "out"},
                                {folder.path(), {}});
   EXPECT_EQ(second.status, 1);
-  EXPECT_THAT(second.err, HasSubstr("controller"));
+  EXPECT_THAT(second.err, HasSubstr("drives the emulated rig already"));
 }
 
 }  // namespace

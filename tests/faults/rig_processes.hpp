@@ -68,13 +68,13 @@ class RigProcesses {
   /// Waits until the path is under way.
   bool waits_for_motion() const {
     return becomes([&] {
-      return content_if_there(folder_ / "control/out/trace.partial.csv").size() > 20000 ||
-             controller_has_ended();
-    });
+             return content_if_there(folder_ / "control/out/trace.partial.csv").size() > 20000 ||
+                    has_ended();
+           }) &&
+           !has_ended();
   }
-  bool controller_has_ended() const {
-    return log().find("controller") != log().rfind("controller");
-  }
+  /// What the controller has written on stderr so far.
+  std::string complaint() const { return content_if_there(folder_ / "control/child.err"); }
 
   /// What the emulator has told so far.
   std::string log() const { return content_if_there(folder_ / "plant/child.out"); }
@@ -131,6 +131,9 @@ class RigProcesses {
   std::unique_ptr<Child> controller;
 
  private:
+  bool has_ended() const {
+    return log().find("left") != std::string::npos || log().find("died") != std::string::npos;
+  }
   static std::string leaves(const std::string& at_zero) { return at_zero.substr(0, 5) + " leaves"; }
   bool has_memory() const {
     struct stat status {};

@@ -57,7 +57,7 @@ TEST_F(Daqnavi, OpensBothCardsWithDrivesOffFirstAndZeroVolts) {
   EXPECT_TRUE(is_safe());
   EXPECT_THAT(card->range, ElementsAre(1, 1));
   EXPECT_EQ(card->description, "PCI-1784,BID#12");
-  EXPECT_EQ(card->mode, 1) << "no reset of the card";
+  EXPECT_EQ(card->mode, 3) << "no reset of the card";
   EXPECT_THAT(card->counting_type, ElementsAre(7, 0, 0, 7));
   EXPECT_THAT(card->is_counting, ElementsAre(true, false, false, true));
   const auto place = [&](const char* name) {

@@ -12,6 +12,8 @@ namespace twin::hal::rig::testing {
 /// A made-up sysfs with PCI cards whose registers are plain files.
 class SysfsTree {
  public:
+  /// Readable for every user, as /sys is.
+  SysfsTree() { std::filesystem::permissions(folder_.path(), std::filesystem::perms(0755)); }
   std::string root() const { return folder_.path().string(); }
   const test::TempFolder& folder() const { return folder_; }
   static std::string inside(const std::string& address, const std::string& file) {

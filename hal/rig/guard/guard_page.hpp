@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pthread.h>
+
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -21,6 +23,7 @@ struct GuardPage {
   std::atomic<bool> is_armed{false};         ///< heartbeats are expected
   std::atomic<GuardState> state{GuardState::kStarting};
   std::array<char, 512> message{};  ///< written before kFailed, ends in 0
+  pthread_mutex_t owner{};          ///< robust; held by the controller as long as it lives
 };
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);

@@ -45,6 +45,18 @@ class Descriptor {
   int value_;
 };
 
+/// Makes a mutex whose holder's death is told to whoever waits for it, in any process, and holds
+/// it.
+void own(pthread_mutex_t& mutex) {
+  pthread_mutexattr_t attributes;
+  pthread_mutexattr_init(&attributes);
+  pthread_mutexattr_setpshared(&attributes, PTHREAD_PROCESS_SHARED);
+  pthread_mutexattr_setrobust(&attributes, PTHREAD_MUTEX_ROBUST);
+  pthread_mutex_init(&mutex, &attributes);
+  pthread_mutexattr_destroy(&attributes);
+  pthread_mutex_lock(&mutex);
+}
+
 /// Attributes of a process in a session of its own, with no signal blocked and no output.
 class Spawn {
  public:
@@ -112,6 +124,7 @@ Expected<void> GuardProcess::spawn(const GuardTarget& target) {
     return failed("shared memory", errno);
   }
   page_ = new (mapped) GuardPage;
+  own(page_->owner);
   std::array<int, 2> ends{-1, -1};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     return failed("pipe", errno);
@@ -174,6 +187,7 @@ void GuardProcess::end() noexcept {
     waitpid(std::exchange(pid_, -1), nullptr, 0);
   }
   if (page_ != nullptr) {
+    pthread_mutex_unlock(&page_->owner);
     munmap(std::exchange(page_, nullptr), sizeof(GuardPage));
   }
 }
