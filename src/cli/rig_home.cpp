@@ -20,12 +20,11 @@ using commissioning::Until;
 runtime::Until watch_for(const HomingMove& move) {
   const std::size_t axis = move.axis;
   switch (move.until) {
-    case Until::kLimitReleased:
-      return [axis, is_positive = move.is_positive](const hal::Inputs& inputs) {
-        return !(is_positive ? inputs.limit_positive : inputs.limit_negative)[axis];
-      };
     case Until::kIndex:
-      return [axis](const hal::Inputs& inputs) { return inputs.index[axis]; };
+      return [axis, is_positive = move.is_positive](const hal::Inputs& inputs) {
+        return inputs.index[axis] &&
+               !(is_positive ? inputs.limit_positive : inputs.limit_negative)[axis];
+      };
     case Until::kNothing:
     case Until::kLimitReached:
       break;
@@ -44,7 +43,7 @@ bool met_switch(const runtime::RunResult& result, const HomingMove& move) {
 /// Makes the moves of homing one after the other.
 class Homing {
  public:
-  Homing(const Options& options, config::MachineFile machine, hal::Machine& rig,
+  Homing(const Options& options, config::MachineFile machine, hal::KeptMachine& rig,
          const std::atomic<bool>& stop)
       : options_(options), machine_(std::move(machine)), rig_(rig), stop_(stop) {
     // Nobody knows where the table stands: the switches are the only limits.
@@ -69,7 +68,7 @@ class Homing {
       return tl::unexpected(result.error());
     }
     const auto axis = static_cast<Eigen::Index>(wanted.axis);
-    HomingStop stop{result->last_at[axis], {}};
+    HomingStop stop{result->rest_at[axis] + rig_.come_to_rest()[wanted.axis], {}};
     if (met_switch(*result, wanted)) {
       stop.met_at = stop.position;
       return stop;
@@ -88,10 +87,8 @@ class Homing {
     switch (move.until) {
       case Until::kLimitReached:
         return fmt::format("towards {}", move.is_positive ? "P-OT" : "N-OT");
-      case Until::kLimitReleased:
-        return "off the switch";
       case Until::kIndex:
-        return "to the index";
+        return "off the switch and to the index";
       case Until::kNothing:
         break;
     }
@@ -100,7 +97,7 @@ class Homing {
 
   const Options& options_;
   config::MachineFile machine_;
-  hal::Machine& rig_;
+  hal::KeptMachine& rig_;
   const std::atomic<bool>& stop_;
 };
 

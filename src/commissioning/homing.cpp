@@ -7,7 +7,8 @@
 namespace twin::commissioning {
 namespace {
 
-constexpr double kMargin = 1.1;  // more than the longest way there can be
+constexpr double kMargin = 1.1;           // more than the longest way there can be
+constexpr double kFarthestBehind = 10.0;  // that an axis runs on behind the switch [mm]
 
 /// A move that must meet something.
 Expected<HomingStop> seek(const HomingMove& wanted, const char* what, const MakeMove& move) {
@@ -32,12 +33,8 @@ Expected<void> home_axis(hal::Axis axis, const HomeSettings& settings, double le
   if (auto reached = seek(next, "the limit switch", move); !reached) {
     return tl::unexpected(reached.error());
   }
-  next.distance = -outward * kMargin * lead;
+  next.distance = -outward * (kMargin * lead + kFarthestBehind);
   next.feedrate = settings.index_feedrate;
-  next.until = Until::kLimitReleased;
-  if (auto released = seek(next, "the end of the limit switch", move); !released) {
-    return tl::unexpected(released.error());
-  }
   next.until = Until::kIndex;
   const auto index = seek(next, "the index", move);
   if (!index) {

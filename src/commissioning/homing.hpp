@@ -14,9 +14,8 @@ namespace twin::commissioning {
 /// What ends a move before its way is done.
 enum class Until : std::uint8_t {
   kNothing,
-  kLimitReached,   ///< the home switch opens
-  kLimitReleased,  ///< it has closed again
-  kIndex,          ///< the encoder's index is met
+  kLimitReached,  ///< the home switch opens
+  kIndex,         ///< the encoder's index is met with the switch closed again
 };
 
 /// One move of homing.
@@ -40,9 +39,8 @@ using MakeMove = std::function<Expected<HomingStop>(const HomingMove&)>;
 /// Homes an axis by limit switch and index:
 ///
 ///   1. towards the switch until it opens,
-///   2. slowly away from it until it closes,
-///   3. on in the same sense to the first index,
-///   4. to where the index was met, and from there by `zero`.
+///   2. slowly away from it to the first index behind where it closes,
+///   3. to where the index was met, and from there by `zero`.
 ///
 /// The axis then stands at its zero, within the way of one period at index_feedrate and a count.
 /// @param length  the axis' whole travel: the farthest way to the switch [mm]

@@ -45,6 +45,7 @@ class Motion {
 
  private:
   MotionEnd move();
+  bool hold();
   std::optional<MotionEnd> settle();
   std::optional<MotionEnd> follow_path();
   bool begin_period();
@@ -266,12 +267,27 @@ MotionEnd Motion::move() {
   return *end;
 }
 
+/// Lets the table come to where the path ended. @returns false if the machine failed meanwhile
+bool Motion::hold() {
+  const auto periods = cycle_.has_machine() ? std::lround(pace_.hold_time / pace_.period) : 0;
+  for (long i = 0; i < periods; ++i) {
+    if (!rest_one_period()) {
+      return false;
+    }
+  }
+  return true;
+}
+
 MotionResult Motion::run() {
   const OffAtTheEnd off(cycle_);
   MotionResult result;
   result.end = move();
+  if (result.end == MotionEnd::kDone && !hold()) {
+    result.end = failed();
+  }
   result.trip = trip_;
   result.met_at = met_at_;
+  result.rest_at = cycle_.measured();
   result.late_periods = pacer_.late_periods();
   result.worst_latency = pacer_.worst_latency();
   return result;

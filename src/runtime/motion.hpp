@@ -34,6 +34,7 @@ enum class MotionEnd : std::uint8_t {
 struct MotionResult {
   MotionEnd end = MotionEnd::kDone;
   std::optional<safety::Trip> trip;  ///< what ended it, with kTripped
+  Vec2 rest_at = Vec2::Zero();       ///< measured at its end [mm]
   std::optional<Vec2> met_at;        ///< measured, where Pace::until came true [mm]
   std::int64_t late_periods = 0;     ///< wall clock only
   double worst_latency = 0.0;        ///< of a period's begin [s]; wall clock only
@@ -45,6 +46,7 @@ struct Pace {
       false;  ///< one period of the cycle per period of the wall clock; else as fast as it goes
   double period = 0.001;       ///< [s]
   double settle_time = 0.3;    ///< held at rest before the first set point, with a machine [s]
+  double hold_time = 0.0;      ///< held at rest after the path's end, not recorded [s]
   double ready_timeout = 3.0;  ///< within which the drives must be ready [s]
   RealtimeSettings realtime;   ///< when a period is too late
   Clock* clock = nullptr;      ///< null: CLOCK_MONOTONIC

@@ -20,6 +20,7 @@ namespace twin::runtime {
 namespace {
 
 constexpr std::size_t kSampleBuffer = 16384;
+constexpr double kHoldTime = 0.1;    // at the path's end, before the machine is switched off [s]
 constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
 
 /// One run: its threads and what they share.
@@ -68,9 +69,7 @@ class Run {
 };
 
 gcode::ReaderOptions reader_options(const RunRequest& request) {
-  gcode::ReaderOptions options;
-  options.feedrate = request.feedrate;
-  return options;
+  return {.feedrate = request.feedrate};
 }
 
 void Run::plan(gcode::Reader& reader) {
@@ -113,6 +112,7 @@ void Run::move() {
   pace.realtime = request_.machine.realtime;
   pace.before_period = request_.hooks.before_period;
   pace.until = request_.until;
+  pace.hold_time = kHoldTime;
   const Limits& limits = request_.machine.limits;
   motion_ = run_motion(cycle_, interpolator_, segments_, samples_, limits, pace, stop_);
 }
@@ -254,7 +254,7 @@ Expected<RunResult> Run::execute() {
   result.failure = failure();
   result.trip = motion_.trip;
   result.met_at = motion_.met_at;
-  result.last_at = recorder_.last().encoder;
+  result.rest_at = motion_.rest_at;
   result.summary = summarise(wall_time);
   if (const auto saved = result.failure ? Expected<void>{} : recorder_.commit(); !saved) {
     result.failure = saved.error();

@@ -37,7 +37,7 @@ struct RunResult {
       failure;  ///< why it ended early; what was recorded is kept, named as partial
   std::optional<safety::Trip> trip;  ///< where a monitor was the reason
   std::optional<Vec2> met_at;        ///< measured, where `until` came true [mm]
-  Vec2 last_at = Vec2::Zero();       ///< measured at the last set point [mm]
+  Vec2 rest_at = Vec2::Zero();       ///< measured when the machine was switched off [mm]
 };
 
 /// Plans a program, moves the machine along it and records everything: planning thread, motion

@@ -15,10 +15,11 @@ namespace twin::safety {
 /// [mm/s] cannot explain:
 ///   the measured position goes against u: w += -dy sign(u), never below 0;
 ///   the tracking error e is one that u should make smaller: e u > 0.
-/// Trips when w exceeds half the limit and |e| the limit. A sound axis runs against u for some
-/// milliseconds after a reversal, because it lags; its error is small then. It also runs on while a
-/// period is late and is called back then, so nothing counts for kAfterLate after a late period;
-/// the tracking error's limit stands meanwhile.
+/// Trips when w exceeds half the limit and |e| the limit, which grows with the feedrate and with
+/// what u moves in a period. A sound axis runs against u for some milliseconds after a reversal,
+/// because it lags; its error is small then. It also runs on while a period is late and is called
+/// back then, so nothing counts for kAfterLate after a late period; the tracking error's limit
+/// stands meanwhile.
 class Runaway {
  public:
   Runaway(const AxisFacts& axis, const Settings& settings) noexcept
@@ -41,7 +42,7 @@ class Runaway {
     last_measured_ = view.measured;
     last_velocity_ = view.volts * mm_per_s_per_volt_;
     const double error = view.command - view.measured;
-    const double limit = limit_ + per_feedrate_ * view.feedrate;
+    const double limit = limit_ + (per_feedrate_ + period_) * view.feedrate;
     if (wrong_way_ > 0.5 * limit && std::abs(error) > limit && error * last_velocity_ > 0.0) {
       return Finding{Kind::kRunaway, std::abs(error), limit};
     }

@@ -160,8 +160,8 @@ TEST_F(CircleCommand, RefusesWhatRunRefuses) {
 }
 
 TEST_F(CircleCommand, WithTooFewSetPointsSaysWhatToDo) {
-  const auto result = twin({"circle", "--out", "out", "--radius-mm", "0.5", "--no-plots", "--set",
-                            "interpolator.period_ms=4"});
+  const auto result = twin({"circle", "--out", "out", "--radius-mm", "0.5", "--no-plots", "--hal",
+                            "ideal", "--set", "interpolator.period_ms=4"});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, HasSubstr("take a larger radius"));
   EXPECT_FALSE(exists("out/circle.json"));
