@@ -256,6 +256,16 @@ Expected<RigPorts> open_ports(RigKind kind, const Options& options,
   return ports;
 }
 
+rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& machine) {
+  rig::RigSettings settings = machine.rig;
+  for (rig::AxisWiring& axis : settings.axis) {
+    if (kind != RigKind::kCards && axis.vref_readback < 0) {
+      axis.vref_readback = axis.dac;
+    }
+  }
+  return settings;
+}
+
 hal::MachineInfo machine_info(const config::MachineFile& machine) {
   return rig::RigMachine(machine.rig, scales_of(machine.table), {}).info();
 }

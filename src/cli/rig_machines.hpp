@@ -46,6 +46,9 @@ struct RigPorts {
 Expected<RigPorts> open_ports(RigKind kind, const Options& options,
                               const config::MachineFile& machine);
 
+/// The wires as somebody who only looks may take them: emulated cards always read V-REF back.
+hal::rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& machine);
+
 /// Name and scales of the rig of a machine file.
 hal::MachineInfo machine_info(const config::MachineFile& machine);
 

@@ -48,6 +48,7 @@ Expected<void> monitor(const Options& options, const std::atomic<bool>& stop) {
   if (!ports) {
     return tl::unexpected(ports.error());
   }
+  const rig::RigSettings settings = settings_to_look_with(*kind, *machine);
   const hal::MachineInfo info = machine_info(*machine);
   fmt::print("rig: {}; Ctrl-C ends this\n", describe(*kind));
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
@@ -58,7 +59,7 @@ Expected<void> monitor(const Options& options, const std::atomic<bool>& stop) {
     if (options.for_s && t > *options.for_s) {
       break;
     }
-    const rig::RigView view = rig::look_at_rig(*ports->pci1716, *ports->pci1784, machine->rig);
+    const rig::RigView view = rig::look_at_rig(*ports->pci1716, *ports->pci1784, settings);
     if (view.board_id_1716 < 0 || view.board_id_1784 < 0) {
       return fail(ErrorCode::kMachine, "a card does not answer: all its registers read ones");
     }

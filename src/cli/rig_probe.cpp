@@ -55,7 +55,8 @@ Expected<void> probe(const Options& options) {
     print_cards(rig::kPci1716, machine->rig);
     print_cards(rig::kPci1784, machine->rig);
   }
-  const rig::RigView view = rig::look_at_rig(*ports->pci1716, *ports->pci1784, machine->rig);
+  const rig::RigView view =
+      rig::look_at_rig(*ports->pci1716, *ports->pci1784, settings_to_look_with(*kind, *machine));
   fmt::print(
       "  PCI-1716  board ID {}, converters used at +-10 V (their registers cannot be read), "
       "DI {:#06x}\n",
