@@ -18,6 +18,12 @@ Expected<std::unique_ptr<hal::Machine>> open_machine(const Options& options,
                                                      const config::MachineFile& machine,
                                                      const std::string& what) {
   if (options.hal != "rig") {
+    if (options.rig != "auto" || !options.faults.empty() || !options.rig_log.empty()) {
+      return fail(ErrorCode::kUsage,
+                  "--rig, --fault and --rig-log are for --hal rig, and this is "
+                  "--hal " +
+                      options.hal);
+    }
     return make_machine(options.hal, machine);
   }
   return open_rig(options, machine, what)

@@ -65,7 +65,9 @@ Command add_rig_emulate(const CommandContext& context) {
   add_machine_options(*app, options);
   app->add_option("--rig-name", options.rig_name, "Shared memory [/twin-rig-UID]")
       ->type_name("/NAME");
-  app->add_option("--for", options.for_s, "End after so long")->type_name("SECONDS");
+  app->add_option("--for", options.for_s, "End after so long")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   add_fault_option(*app, options);
   return {app, [&options, &stop = context.stop] { return emulate(options, stop); }};
 }

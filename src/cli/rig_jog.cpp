@@ -13,6 +13,9 @@ Expected<void> jog(const Options& options, const std::atomic<bool>& stop) {
   if (!machine) {
     return tl::unexpected(machine.error());
   }
+  if (options.distance_mm == 0.0) {
+    return fail(ErrorCode::kUsage, "--distance-mm 0 is no move");
+  }
   const AxisMove move{"jog", options.axis.front(), options.distance_mm, *feedrate_of(options), {}};
   const auto rig =
       open_rig(options, *machine,

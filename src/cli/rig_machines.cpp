@@ -211,6 +211,12 @@ Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
   if (!kind) {
     return tl::unexpected(kind.error());
   }
+  if (*kind != RigKind::kEmulated && (!options.faults.empty() || !options.rig_log.empty())) {
+    return fail(ErrorCode::kUsage,
+                fmt::format("--fault and --rig-log are for --rig emulated, and this rig is: {}; an "
+                            "emulator's process takes --fault by itself",
+                            describe(*kind)));
+  }
   auto opened = make_rig(*kind, options, machine);
   if (opened) {
     auto confirmed = confirm_motion((*opened)->info(), options.i_know_it_moves, what);

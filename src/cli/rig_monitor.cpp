@@ -83,7 +83,9 @@ Command add_rig_monitor(const CommandContext& context) {
       "monitor", "Show live counts, volts and inputs; nothing moves, a run may go on beside it");
   add_machine_options(*app, options);
   add_rig_options(*app, options, false);
-  app->add_option("--for", options.for_s, "End after so long")->type_name("SECONDS");
+  app->add_option("--for", options.for_s, "End after so long")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   return {app, [&options, &stop = context.stop] { return monitor(options, stop); }};
 }
 

@@ -140,6 +140,15 @@ TEST_F(Rig, JogRefusesWhatIsNoMove) {
                  1, "travel");
 }
 
+TEST_F(Rig, OptionsOfTheRigAreRefusedWhereTheyWouldBeIgnored) {
+  expect_refusal(twin({"run", "ok.nc", "--fault", "alarm:x@1", "--out", "out"}), 2, "--hal rig");
+  expect_refusal(twin({"run", "ok.nc", "--rig", "emulated", "--out", "out"}), 2, "--hal rig");
+  expect_refusal(twin({"rig", "monitor", "--rig", "emulated", "--for", "-1"}), 2, "--for");
+  expect_refusal(twin({"rig", "jog", "--rig", "emulated", "--axis", "x", "--distance-mm", "0",
+                       "--feedrate-mm-per-min", "60"}),
+                 2, "no move");
+}
+
 TEST_F(Rig, HomeEndsAtTheZeroOfTheTable) {
   // Switches at +-6 mm, an index in the middle of each revolution: at -5 and 5 mm.
   for (const bool is_positive : {false, true}) {
