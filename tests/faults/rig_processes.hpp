@@ -11,7 +11,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -81,13 +80,17 @@ class RigProcesses {
 
   /// When something was first told after a time, both on CLOCK_MONOTONIC [s].
   std::optional<double> time_of(const std::string& text, double after) const {
+    // plant 0.493750 s, clock 24466.152719818 s: DAC 0 at 0x8000
+    const std::string clock = "clock ";
     std::istringstream lines(log());
-    const std::regex clock("clock ([0-9.]+) s: (.*)");
-    std::smatch match;
     for (std::string line; std::getline(lines, line);) {
-      if (std::regex_search(line, match, clock) && match[2].str() == text &&
-          std::stod(match[1]) >= after) {
-        return std::stod(match[1]);
+      const std::size_t at = line.find(clock);
+      if (at == std::string::npos || !line.ends_with(" s: " + text)) {
+        continue;
+      }
+      const double time = std::stod(line.substr(at + clock.size()));
+      if (time >= after) {
+        return time;
       }
     }
     return std::nullopt;
