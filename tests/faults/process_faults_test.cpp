@@ -16,14 +16,27 @@ using ::testing::HasSubstr;
 constexpr int kAttempts = 6;
 constexpr double kInTime = 0.025;  // [s]
 
+/// Patient but for the guard, which waits as long as it does by default.
+std::vector<std::string> with_heartbeats() {
+  std::vector<std::string> settings = kPatient;
+  settings.back() = "safety.heartbeat_timeout_ms=20";
+  return settings;
+}
+
 /// A rig whose controller follows a long path.
 class ProcessFault : public ::testing::Test {
  protected:
+  /// Begins anew where a system that stood still ended the run before it moved.
   void start(const std::vector<std::string>& more = kPatient) {
-    rig.emplace();
-    rig->start_emulator();
-    rig->start_controller("long.nc", more);
-    ASSERT_TRUE(rig->waits_for_motion()) << rig->log() << rig->complaint();
+    for (int i = 0; i < kAttempts; ++i) {
+      rig.emplace();
+      rig->start_emulator();
+      rig->start_controller("long.nc", more);
+      if (rig->waits_for_motion()) {
+        return;
+      }
+    }
+    FAIL() << rig->log() << rig->complaint();
   }
   void expect_partial_files() const {
     EXPECT_TRUE(std::filesystem::exists(rig->results() / "trace.partial.csv"));
@@ -38,7 +51,7 @@ class FatalSignal : public ProcessFault, public ::testing::WithParamInterface<in
 TEST_P(FatalSignal, OutputsAreSafeWithinTwentyFiveMilliseconds) {
   double best = 1.0;
   for (int i = 0; i < kAttempts && best > kInTime; ++i) {
-    start();
+    start(with_heartbeats());
     const double before = monotonic();
     rig->controller->signal(GetParam());
     const auto safe = rig->safe_after(before);
@@ -56,11 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Signals, FatalSignal,
                          [](const auto& test) { return std::string(sigabbrev_np(test.param)); });
 
 TEST_F(ProcessFault, ControllerThatHangsIsMadeSafeByTheGuardAndStaysSo) {
-  std::vector<std::string> settings = kPatient;
-  settings.back() = "safety.heartbeat_timeout_ms=20";
   double best = 1.0;
   for (int i = 0; i < kAttempts && best > kInTime; ++i) {
-    start(settings);
+    start(with_heartbeats());
     const double before = monotonic();
     rig->controller->signal(SIGSTOP);
     const auto safe = rig->safe_after(before - 0.001);
