@@ -5,24 +5,13 @@
 #include <cmath>
 #include <thread>
 
+#include "runtime/off_at_the_end.hpp"
 #include "runtime/pacer.hpp"
 
 namespace twin::runtime {
 namespace {
 
 void nap() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
-
-/// Leaves the machine with 0 V and servo off, also when a hook throws.
-class OffAtTheEnd {
- public:
-  explicit OffAtTheEnd(Cycle& cycle) : cycle_(cycle) {}
-  OffAtTheEnd(const OffAtTheEnd&) = delete;
-  OffAtTheEnd& operator=(const OffAtTheEnd&) = delete;
-  ~OffAtTheEnd() { cycle_.switch_off(); }
-
- private:
-  Cycle& cycle_;
-};
 
 /// State of one run of the motion thread.
 class Motion {
