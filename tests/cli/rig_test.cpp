@@ -143,7 +143,7 @@ TEST_F(Rig, JogRefusesWhatIsNoMove) {
 TEST_F(Rig, OptionsOfTheRigAreRefusedWhereTheyWouldBeIgnored) {
   expect_refusal(twin({"run", "ok.nc", "--fault", "alarm:x@1", "--out", "out"}), 2, "--hal rig");
   expect_refusal(twin({"run", "ok.nc", "--rig", "emulated", "--out", "out"}), 2, "--hal rig");
-  expect_refusal(twin({"rig", "monitor", "--rig", "emulated", "--for", "-1"}), 2, "--for");
+  expect_refusal(twin({"rig", "monitor", "--rig", "emulated", "--for", "0"}), 2, "--for");
   expect_refusal(twin({"rig", "jog", "--rig", "emulated", "--axis", "x", "--distance-mm", "0",
                        "--feedrate-mm-per-min", "60"}),
                  2, "no move");
