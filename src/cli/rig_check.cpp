@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <chrono>
+#include <memory>
 #include <string>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/rig_machines.hpp"
 #include "commissioning/wiring_check.hpp"
+#include "runtime/pacer.hpp"
 
 namespace twin::cli {
 namespace {
@@ -18,12 +18,9 @@ commissioning::WaitForPeriod make_wait(const hal::MachineInfo& info, double peri
   if (!info.keeps_own_time) {
     return [] {};
   }
-  const auto length =
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(period));
-  return [length, next = std::chrono::steady_clock::now()]() mutable {
-    next = std::max(next + length, std::chrono::steady_clock::now());
-    std::this_thread::sleep_until(next);
-  };
+  const auto clock = std::make_shared<runtime::MonotonicClock>();
+  const auto pacer = std::make_shared<runtime::Pacer>(*clock, period, RealtimeSettings{});
+  return [clock, pacer] { pacer->wait(); };
 }
 
 void print_axis(char name, const AxisWiringReport& report) {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "cli/commands.hpp"
-#include "hal/rig/boards/shared_registers.hpp"
+#include "cli/rig_ports.hpp"
 #include "hal/rig/emulator/serve.hpp"
 #include "runtime/realtime_thread.hpp"
 
@@ -21,7 +21,7 @@ Expected<void> emulate(const Options& options, const std::atomic<bool>& stop) {
     return tl::unexpected(machine.error());
   }
   rig::ServeSettings settings;
-  settings.name = options.rig_name;
+  settings.name = shared_name(options);
   settings.duration = options.for_s;
   for (const std::string& text : options.faults) {
     const auto fault = rig::parse_fault(text);
@@ -35,8 +35,7 @@ Expected<void> emulate(const Options& options, const std::atomic<bool>& stop) {
     std::fflush(stdout);
   };
   tell(fmt::format("emulated rig (simulated), process {}, registers in {}; Ctrl-C ends it",
-                   getpid(),
-                   options.rig_name.empty() ? rig::default_shared_name() : options.rig_name));
+                   getpid(), shared_name(options)));
   // Above a controller on the same machine, or its command would outrun the plant.
   RealtimeSettings pace = machine->realtime;
   pace.priority = pace.priority > 0 ? std::min(pace.priority + 5, 98) : 0;

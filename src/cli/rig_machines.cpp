@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "cli/confirmation.hpp"
+#include "cli/rig_ports.hpp"
 #include "core/atomic_file.hpp"
-#include "hal/rig/boards/emulated_pci1716.hpp"
-#include "hal/rig/boards/emulated_pci1784.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 #include "hal/rig/daqnavi_library.hpp"
 #include "hal/rig/emergency.hpp"
@@ -27,10 +26,6 @@ namespace {
 
 namespace rig = hal::rig;
 
-std::string shared_name(const Options& options) {
-  return options.rig_name.empty() ? rig::default_shared_name() : options.rig_name;
-}
-
 rig::TableScales scales_of(const hal::TableParams& table) {
   rig::TableScales scales;
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
@@ -40,17 +35,10 @@ rig::TableScales scales_of(const hal::TableParams& table) {
   return scales;
 }
 
-rig::Pci1784Layout layout_of(const rig::RigSettings& settings) {
-  rig::Pci1784Layout layout;
-  layout.reset = static_cast<std::uint32_t>(settings.counter_reset_offset);
-  return layout;
-}
-
 Expected<std::unique_ptr<rig::Cards>> open_boards(rig::BoardRegisters& boards,
                                                   const rig::RigSettings& settings) {
-  return rig::RegisterCards::open(
-      std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
-      std::make_unique<rig::EmulatedPci1784>(boards.pci1784, layout_of(settings)), settings);
+  RigPorts ports = ports_of(boards, settings);
+  return rig::RegisterCards::open(std::move(ports.pci1716), std::move(ports.pci1784), settings);
 }
 
 /// What happened at the boards, when all is over.
@@ -225,51 +213,6 @@ Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
     }
   }
   return opened;
-}
-
-Expected<RigPorts> open_ports(RigKind kind, const Options& options,
-                              const config::MachineFile& machine) {
-  const auto of_boards = [](std::shared_ptr<void> owner, rig::BoardRegisters& boards) {
-    return RigPorts{std::move(owner), std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
-                    std::make_unique<rig::EmulatedPci1784>(boards.pci1784)};
-  };
-  if (kind == RigKind::kProcess) {
-    return rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kObserver)
-        .map([&](std::shared_ptr<rig::SharedRegisters> shared) {
-          return of_boards(shared, shared->boards());
-        });
-  }
-  if (kind == RigKind::kEmulated) {
-    const auto bench = std::make_shared<rig::EmulatedRig>(machine.table, machine.rig);
-    return bench->power_on(machine.period).map([&] {
-      bench->advance();
-      return of_boards(bench, bench->boards());
-    });
-  }
-  const auto found = rig::find_cards(machine.rig);
-  if (!found) {
-    return tl::unexpected(found.error());
-  }
-  RigPorts ports;
-  for (const auto& [card, port] :
-       {std::pair(&found->pci1716, &ports.pci1716), std::pair(&found->pci1784, &ports.pci1784)}) {
-    auto opened = rig::open_port(card->port);
-    if (!opened) {
-      return tl::unexpected(std::move(opened.error()));
-    }
-    *port = std::move(*opened);
-  }
-  return ports;
-}
-
-rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& machine) {
-  rig::RigSettings settings = machine.rig;
-  for (rig::AxisWiring& axis : settings.axis) {
-    if (kind != RigKind::kCards && axis.vref_readback < 0) {
-      axis.vref_readback = axis.dac;
-    }
-  }
-  return settings;
 }
 
 hal::MachineInfo machine_info(const config::MachineFile& machine) {

@@ -6,7 +6,6 @@
 #include "cli/options.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/rig/io_port/io_port.hpp"
 #include "hal/rig/rig_machine.hpp"
 
 /// The rig behind --hal rig: which one it is, and how it is put together.
@@ -34,20 +33,6 @@ Expected<std::unique_ptr<hal::rig::RigMachine>> make_rig(RigKind kind, const Opt
 Expected<std::unique_ptr<hal::rig::RigMachine>> open_rig(const Options& options,
                                                          const config::MachineFile& machine,
                                                          const std::string& what);
-
-/// Registers of the two cards, for commands that only look.
-struct RigPorts {
-  std::shared_ptr<void> owner;  ///< of what is behind them
-  std::unique_ptr<hal::rig::IoPort> pci1716;
-  std::unique_ptr<hal::rig::IoPort> pci1784;
-};
-
-/// Opens the registers without writing to them.
-Expected<RigPorts> open_ports(RigKind kind, const Options& options,
-                              const config::MachineFile& machine);
-
-/// The wires as somebody who only looks may take them: emulated cards always read V-REF back.
-hal::rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& machine);
 
 /// Name and scales of the rig of a machine file.
 hal::MachineInfo machine_info(const config::MachineFile& machine);

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
-#include "cli/rig_machines.hpp"
+#include "cli/rig_look.hpp"
 #include "hal/rig/rig_view.hpp"
 
 namespace twin::cli {
@@ -36,21 +36,13 @@ std::string axis_text(std::size_t axis, const rig::RigView& view, double mm_per_
 }
 
 Expected<void> monitor(const Options& options, const std::atomic<bool>& stop) {
-  const auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
+  const auto rig_seen = open_to_look(options);
+  if (!rig_seen) {
+    return tl::unexpected(rig_seen.error());
   }
-  const auto kind = find_rig(options, *machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  const auto ports = open_ports(*kind, options, *machine);
-  if (!ports) {
-    return tl::unexpected(ports.error());
-  }
-  const rig::RigSettings settings = settings_to_look_with(*kind, *machine);
-  const hal::MachineInfo info = machine_info(*machine);
-  fmt::print("rig: {}; Ctrl-C ends this\n", describe(*kind));
+  const RigPorts& ports = rig_seen->ports;
+  const hal::MachineInfo info = machine_info(rig_seen->machine);
+  fmt::print("rig: {}; Ctrl-C ends this\n", describe(rig_seen->kind));
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
   const auto start = Clock::now();
   for (auto next = start; !stop.load(); next += kInterval) {
@@ -59,7 +51,7 @@ Expected<void> monitor(const Options& options, const std::atomic<bool>& stop) {
     if (options.for_s && t > *options.for_s) {
       break;
     }
-    const rig::RigView view = rig::look_at_rig(*ports->pci1716, *ports->pci1784, settings);
+    const rig::RigView view = rig::look_at_rig(*ports.pci1716, *ports.pci1784, rig_seen->settings);
     if (view.board_id_1716 < 0 || view.board_id_1784 < 0) {
       return fail(ErrorCode::kMachine, "a card does not answer: all its registers read ones");
     }

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "cli/rig_machines.hpp"
+#include "cli/rig_look.hpp"
 #include "hal/rig/io_port/find_card.hpp"
 #include "hal/rig/rig_view.hpp"
 
@@ -38,32 +38,25 @@ void print_axis(char name, const rig::AxisWiring& wiring, const rig::RigView& vi
 }
 
 Expected<void> probe(const Options& options) {
-  const auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
+  const auto rig_seen = open_to_look(options);
+  if (!rig_seen) {
+    return tl::unexpected(rig_seen.error());
   }
-  const auto kind = find_rig(options, *machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  const auto ports = open_ports(*kind, options, *machine);
-  if (!ports) {
-    return tl::unexpected(ports.error());
-  }
-  fmt::print("rig: {}\n", describe(*kind));
-  if (*kind == RigKind::kCards) {
-    print_cards(rig::kPci1716, machine->rig);
-    print_cards(rig::kPci1784, machine->rig);
+  const rig::RigSettings& settings = rig_seen->settings;
+  fmt::print("rig: {}\n", describe(rig_seen->kind));
+  if (rig_seen->kind == RigKind::kCards) {
+    print_cards(rig::kPci1716, settings);
+    print_cards(rig::kPci1784, settings);
   }
   const rig::RigView view =
-      rig::look_at_rig(*ports->pci1716, *ports->pci1784, settings_to_look_with(*kind, *machine));
+      rig::look_at_rig(*rig_seen->ports.pci1716, *rig_seen->ports.pci1784, settings);
   fmt::print(
       "  PCI-1716  board ID {}, converters used at +-10 V (their registers cannot be read), "
       "DI {:#06x}\n",
       view.board_id_1716, view.digital);
   fmt::print("  PCI-1784  board ID {}\n", view.board_id_1784);
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
-    print_axis("xy"[axis], machine -> rig.axis[axis], view, axis);
+    print_axis("xy"[axis], settings.axis[axis], view, axis);
   }
   if (view.board_id_1716 < 0 || view.board_id_1784 < 0) {
     return fail(ErrorCode::kMachine, fmt::format("the PCI-{} does not answer: all its registers "

@@ -18,8 +18,7 @@ class Clock {
   virtual void sleep_until(std::int64_t t) noexcept = 0;
 };
 
-/// CLOCK_MONOTONIC; sleeps by clock_nanosleep(TIMER_ABSTIME), so that what passes between reading
-/// the clock and sleeping is not added to the period.
+/// CLOCK_MONOTONIC, with absolute sleeps.
 class MonotonicClock final : public Clock {
  public:
   std::int64_t now() noexcept override;

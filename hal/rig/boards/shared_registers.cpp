@@ -17,6 +17,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/descriptor.hpp"
+
 namespace twin::hal::rig {
 namespace {
 
@@ -33,24 +35,6 @@ tl::unexpected<Error> refused(const std::string& name, const char* what) {
   return fail(ErrorCode::kMachine,
               fmt::format("shared memory {} cannot be {}: {}", name, what, std::strerror(errno)));
 }
-
-/// Closes a file where a function leaves early.
-class File {
- public:
-  explicit File(int file) noexcept : file_(file) {}
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() {
-    if (file_ >= 0) {
-      ::close(file_);
-    }
-  }
-  int get() const noexcept { return file_; }
-  int release() noexcept { return std::exchange(file_, -1); }
-
- private:
-  int file_;
-};
 
 SharedBlock* map(int file) noexcept {
   void* memory = ::mmap(nullptr, sizeof(SharedBlock), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
@@ -77,11 +61,11 @@ pid_t emulator_of(int file) noexcept {
 
 /// Locked new memory under a name, taken over where a dead emulator left it; -1: somebody has it.
 int lock_new(const std::string& name) noexcept {
-  File file(::shm_open(name.c_str(), O_RDWR | O_CREAT | O_EXCL, kOwnerOnly));
+  Descriptor file(::shm_open(name.c_str(), O_RDWR | O_CREAT | O_EXCL, kOwnerOnly));
   if (file.get() >= 0) {
     return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 ? file.release() : -1;
   }
-  const File stale(errno == EEXIST ? ::shm_open(name.c_str(), O_RDWR, 0) : -1);
+  const Descriptor stale(errno == EEXIST ? ::shm_open(name.c_str(), O_RDWR, 0) : -1);
   if (stale.get() >= 0 && ::flock(stale.get(), LOCK_EX | LOCK_NB) == 0) {
     struct stat status {};
     if (::fstat(stale.get(), &status) == 0 && status.st_nlink > 0) {
@@ -157,12 +141,12 @@ Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::create(const std::st
     }
   }
   if (locked < 0) {
-    const File other(::shm_open(name.c_str(), O_RDWR, 0));
+    const Descriptor other(::shm_open(name.c_str(), O_RDWR, 0));
     return fail(ErrorCode::kMachine,
                 fmt::format("an emulator is running already, process {}, shared memory {}",
                             other.get() >= 0 ? emulator_of(other.get()) : 0, name));
   }
-  File file(locked);
+  Descriptor file(locked);
   if (::ftruncate(file.get(), sizeof(SharedBlock)) != 0) {
     ::shm_unlink(name.c_str());
     return refused(name, "made large enough");
@@ -183,7 +167,7 @@ Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::create(const std::st
 
 Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::attach(const std::string& name,
                                                                    SharedRole role) {
-  File file(::shm_open(name.c_str(), O_RDWR, 0));
+  Descriptor file(::shm_open(name.c_str(), O_RDWR, 0));
   if (file.get() < 0) {
     return errno == ENOENT
                ? fail(ErrorCode::kMachine,

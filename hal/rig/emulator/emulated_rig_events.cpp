@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/monotonic.hpp"
 #include "hal/rig/emulator/emulated_rig.hpp"
 
 namespace twin::hal::rig {

@@ -1,8 +1,8 @@
 #include "hal/rig/emulator/event_log.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
+#include "core/monotonic.hpp"
 #include "hal/rig/emulator/fault.hpp"
 #include "hal/signals.hpp"
 
@@ -10,7 +10,6 @@ namespace twin::hal::rig {
 namespace {
 
 constexpr std::uint16_t kZeroVolts = 0x8000;
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 
 std::string fault_text(const Event& event) {
   const auto kind = static_cast<FaultKind>(event.value);
@@ -55,12 +54,6 @@ std::string what(const Event& event) {
 }
 
 }  // namespace
-
-std::int64_t monotonic_ns() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNsPerS + now.tv_nsec;
-}
 
 std::string to_string(const Event& event) {
   return fmt::format("plant {:.6f} s, clock {}.{:09} s: {}", event.plant_time,

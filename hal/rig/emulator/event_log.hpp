@@ -39,9 +39,6 @@ struct Event {
 /// "plant 1.234000 s, clock 5678.123456789 s: DAC 0 at 0x8000".
 std::string to_string(const Event& event);
 
-/// Present CLOCK_MONOTONIC [ns]. Real-time safe.
-std::int64_t monotonic_ns() noexcept;
-
 /// The last `capacity` events. For one thread.
 class EventLog {
  public:

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
-#include <time.h>
 
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "core/monotonic.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 #include "hal/rig/emulator/emulated_rig.hpp"
 #include "hal/rig/emulator/event_teller.hpp"
@@ -15,17 +15,11 @@
 namespace twin::hal::rig {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 constexpr std::int64_t kMostBehind = 20'000'000;      // caught up with at most [ns]
 constexpr std::int64_t kControllerCheck = 1'000'000;  // between looks whether it lives [ns]
 
 std::int64_t nanoseconds(double seconds) noexcept {
   return std::llround(seconds * static_cast<double>(kNsPerS));
-}
-
-void sleep_until(std::int64_t time) noexcept {
-  const timespec until{time / kNsPerS, time % kNsPerS};
-  ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
 }
 
 /// The process of the emulator: plant, registers and clock.
@@ -132,7 +126,7 @@ Expected<ServeResult> Server::run(std::optional<double> duration, const std::ato
   const std::int64_t start = monotonic_ns();
   next_ = start + step_ns_;
   while (!stop.load() && (!duration || next_ - start <= nanoseconds(*duration))) {
-    sleep_until(next_);
+    sleep_until_monotonic(next_);
     const std::int64_t now = monotonic_ns();
     if (now < next_) {
       continue;  // a signal

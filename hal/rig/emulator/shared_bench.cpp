@@ -2,7 +2,7 @@
 
 #include <time.h>
 
-#include "hal/rig/emulator/event_log.hpp"
+#include "core/monotonic.hpp"
 
 namespace twin::hal::rig {
 

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/descriptor.hpp"
+
 namespace twin::hal::rig {
 namespace {
 
@@ -27,23 +29,6 @@ tl::unexpected<Error> failed(const char* what, int code) {
   return fail(ErrorCode::kMachine,
               fmt::format("the guard process cannot be started: {}: {}", what, strerror(code)));
 }
-
-/// A file descriptor that is closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int value = -1) noexcept : value_(value) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (value_ >= 0) {
-      close(value_);
-    }
-  }
-  int get() const noexcept { return value_; }
-
- private:
-  int value_;
-};
 
 /// Makes a mutex whose holder's death is told to whoever waits for it, in any process, and holds
 /// it.
