@@ -21,6 +21,12 @@ void add_limits(List& list, Limits& l) {
   list.push_back({section, "acceleration", "mm_per_s2", &l.acceleration, 1.0, 1e6,
                   "A_max, tangential and normal, each"});
   list.push_back({section, "jerk", "mm_per_s3", &l.jerk, 1.0, 1e9, "J_max, tangential"});
+  list.push_back({section, "axis_feedrate", "mm_per_min", &l.axis_feedrate, 0.0, 1e6,
+                  "largest feedrate of each axis, x y z; 0: no limit of its own", kPerMinute});
+  list.push_back({section, "axis_acceleration", "mm_per_s2", &l.axis_acceleration, 0.0, 1e6,
+                  "acceleration limit of each axis, x y z; 0: no limit of its own"});
+  list.push_back({section, "axis_jerk", "mm_per_s3", &l.axis_jerk, 0.0, 1e9,
+                  "jerk limit of each axis, x y z; 0: no limit of its own"});
   list.push_back(
       {section, "travel_min", "mm", &l.travel_min, -1e4, 1e4, "lower ends of travel, x y z"});
   list.push_back(
@@ -29,6 +35,8 @@ void add_limits(List& list, Limits& l) {
 
 void add_planning(List& list, PlanningModel& p, PathSettings& s) {
   const char* section = "planning";
+  list.push_back({section, "planner", "", choice(s.planner, {"paper", "certified"}), 0.0, 0.0,
+                  "which planner makes path and feedrates"});
   list.push_back(
       {section, "kp", "per_s", &p.kp, 1e-3, 1e5, "position gain Kp the planner believes in"});
   list.push_back({section, "kf", "", &p.kf, 0.0, 0.999,

@@ -12,6 +12,9 @@ struct Limits {
   double rapid_feedrate = 100.0;           ///< feedrate of G00 [mm/s]
   double acceleration = 2450.0;            ///< A_max, tangential and normal, each [mm/s^2]
   double jerk = 50000.0;                   ///< J_max, tangential [mm/s^3]
+  Vec3 axis_feedrate = Vec3::Zero();       ///< of each axis; 0: no limit of its own [mm/s]
+  Vec3 axis_acceleration = Vec3::Zero();   ///< of each axis; 0: no limit of its own [mm/s^2]
+  Vec3 axis_jerk = Vec3::Zero();           ///< of each axis; 0: no limit of its own [mm/s^3]
   Vec3 travel_min{-200.0, -200.0, -60.0};  ///< lower ends of travel (x, y, z) [mm]
   Vec3 travel_max{200.0, 200.0, 60.0};     ///< upper ends of travel (x, y, z) [mm]
 };

@@ -13,12 +13,19 @@ enum class CurveKind : std::uint8_t {
   kNone,    ///< the lines they are
 };
 
+/// Which planner turns blocks into a path with feedrates.
+enum class Planner : std::uint8_t {
+  kPaper,      ///< runs of short blocks interpolated, corners passed as they are [WY09]
+  kCertified,  ///< one path of continuous curvature within the tolerance, all limits guaranteed
+};
+
 /// Names of the interpolators, in the order of CurveKind.
 inline constexpr std::array<std::string_view, 3> kInterpolatorNames{"nurbs", "bezier", "linear"};
 
 /// How NC blocks become segments: which runs are fitted, how closely, and how far ahead the planner
 /// looks.
 struct PathSettings {
+  Planner planner = Planner::kPaper;
   CurveKind curves = CurveKind::kNurbs;
   double chord_error = 0.01;  ///< chord tolerance, and the curve's distance from the polygon [mm]
   int min_segments = 3;       ///< fewest blocks that are fitted into one curve

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "gcode/block.hpp"
 #include "nurbs/fit.hpp"
+#include "path/builder.hpp"
 #include "path/run_fitter.hpp"
 #include "path/segment.hpp"
 
@@ -18,17 +18,13 @@ namespace twin::path {
 /// Successive G01 blocks that meet the criterion for continuous short blocks (CSB, Section 2.1 of
 /// the paper) form a run; RunFitter makes curves of it. Every other block becomes the line, arc,
 /// curve or rest that it is; a NURBS of many spans becomes several segments.
-class PathBuilder {
+class PathBuilder : public Builder {
  public:
-  using Sink = std::function<void(Segment&&)>;
-
   PathBuilder(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
               Sink sink);
 
-  /// Takes the next block; segments come out of the sink as soon as they are settled.
-  void push(const gcode::Block& block);
-  /// No more blocks follow.
-  void finish();
+  void push(const gcode::Block& block) override;
+  void finish() override;
 
  private:
   bool is_short(const gcode::Block& block) const;

@@ -53,6 +53,7 @@ struct Segment {
   double feedrate = 0.0;      ///< programmed feedrate, or the rapid's [mm/s]
   double corner_error = 0.0;  ///< corner error allowed at its end [mm]
   double dwell = 0.0;         ///< time at rest [s], where it is a rest
+  double deviation = 0.0;     ///< bound of its distance from the programmed path, both ways [mm]
   bool stops_at_end = false;  ///< the feedrate is zero at its end
   bool is_rapid = false;
   PathPoint begin;               ///< its first place

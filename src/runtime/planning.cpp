@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "feedrate/look_ahead.hpp"
-#include "path/path_builder.hpp"
+#include "path/builder.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -41,8 +41,9 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
                                    count(planned, figures);
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  path::PathBuilder builder(machine.path, machine.planning, machine.limits,
-                            [&](path::Segment&& segment) { look_ahead.push(std::move(segment)); });
+  const auto builder =
+      path::make_builder(machine.path, machine.planning, machine.limits,
+                         [&](path::Segment&& segment) { look_ahead.push(std::move(segment)); });
   while (goes_on) {
     auto block = reader.next();
     if (!block) {
@@ -52,10 +53,10 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
       break;
     }
     figures.blocks += (*block)->motion == gcode::Motion::kDwell ? 0 : 1;
-    builder.push(**block);
+    builder->push(**block);
   }
   if (goes_on) {
-    builder.finish();
+    builder->finish();
     look_ahead.finish();
   }
   figures.fallbacks = look_ahead.fallbacks();

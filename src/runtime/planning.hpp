@@ -24,7 +24,7 @@ struct PlanFigures {
   std::int64_t fallbacks = 0;  ///< plans that could not be made and followed an earlier one
 };
 
-/// The whole planning chain, text to planned segments: Reader, PathBuilder, LookAhead.
+/// The whole planning chain, text to planned segments: Reader, path::Builder, LookAhead.
 ///
 /// @param sink  takes each planned segment; returns false to stop
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
