@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 
-#include "core/vec.hpp"
 #include "metrics/feedrate_fluctuation.hpp"
 #include "trace/csv_reader.hpp"
 
@@ -55,20 +53,13 @@ Expected<trace::Table> read_fluctuation(const std::filesystem::path& trace, doub
   constexpr std::array<std::string_view, 5> kColumns{"t_s", "x_cmd_mm", "y_cmd_mm", "z_cmd_mm",
                                                      "feedrate_mm_per_s"};
   trace::Table table{2, {}};
-  std::deque<std::array<double, 5>> window;
+  metrics::FeedrateFluctuation fluctuation(period);
   const auto take = [&](std::span<const double> row) {
-    window.push_back({row[0], row[1], row[2], row[3], row[4]});
-    if (window.size() < 4) {
-      return;
+    const auto share = fluctuation.add({row[1], row[2], row[3]}, row[4]);
+    if (share) {
+      const double late = (metrics::FeedrateFluctuation::kDelay - 0.5) * period;
+      add_row(table, row[0] - late, 100.0 * *share);
     }
-    metrics::FeedrateFluctuation one_period(period);
-    for (const auto& [t, x, y, z, feedrate] : window) {
-      one_period.add({x, y, z}, feedrate);
-    }
-    if (one_period.shares().count() > 0) {
-      add_row(table, 0.5 * (window[1][0] + window[2][0]), 100.0 * one_period.shares().max());
-    }
-    window.pop_front();
   };
   if (auto read = trace::read_rows(trace, kColumns, take); !read) {
     return tl::unexpected(std::move(read.error()));

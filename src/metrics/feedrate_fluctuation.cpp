@@ -7,36 +7,38 @@ namespace twin::metrics {
 namespace {
 
 constexpr double kSlowest = 1.0;  // [mm/s]
-constexpr double kCorner = 0.3;   // [rad]
-
-/// Turn from one way to the next [rad].
-double turn(const Vec3& a, const Vec3& b) {
-  return 2.0 * std::atan2((a.normalized() - b.normalized()).norm(),
-                          (a.normalized() + b.normalized()).norm());
-}
 
 }  // namespace
 
-void FeedrateFluctuation::add(const Vec3& point, double feedrate) noexcept {
-  std::shift_left(points_.begin(), points_.end(), 1);
+std::optional<double> FeedrateFluctuation::add(const Vec3& point, double feedrate) noexcept {
   std::shift_left(feedrates_.begin(), feedrates_.end(), 1);
-  points_.back() = point;
   feedrates_.back() = feedrate;
-  count_ = std::min(count_ + 1, 4);
-  if (count_ < 4) {
-    return;
+  const Step step = step_;
+  if (count_ == 0) {
+    steps_.reset(point);
+    feedrates_.fill(feedrate);
+  } else {
+    step_ = steps_.push(point);
   }
-  const auto [v0, v1, v2, v3] = feedrates_;
-  const double commanded = 0.5 * (v1 + v2) - (v3 - v2 - v1 + v0) / 24.0;
-  const Vec3 way = points_[2] - points_[1];
-  const double before = turn(points_[1] - points_[0], way);
-  const double after = turn(way, points_[3] - points_[2]);
-  if (commanded < kSlowest || std::max(before, after) > kCorner) {
-    return;
+  count_ = std::min(count_ + 1, kDelay + 2);
+  if (count_ < kDelay + 2) {
+    return std::nullopt;
   }
-  const double bend = 0.5 * (before + after);
-  const double travelled = way.norm() * (1.0 + bend * bend / 24.0) / period_;
-  shares_.add(std::abs(travelled - commanded) / commanded);
+  const auto third = [&](std::size_t i) {
+    const double* v = feedrates_.data() + i;
+    return std::abs(v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]);
+  };
+  // The period from feedrates_[2] to feedrates_[3].
+  const double* v = feedrates_.data() + 1;
+  const double commanded = 0.5 * (v[1] + v[2]) - (v[3] - v[2] - v[1] + v[0]) / 24.0;
+  if (commanded < kSlowest || step.doubt > step.chord) {
+    return std::nullopt;
+  }
+  const double doubt = step.doubt / period_ + std::max({third(0), third(1), third(2)}) / 12.0;
+  const double off = std::abs(step.arc / period_ - commanded);
+  const double share = std::max(off - doubt, 0.0) / commanded;
+  shares_.add(share);
+  return share;
 }
 
 }  // namespace twin::metrics

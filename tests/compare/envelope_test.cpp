@@ -48,7 +48,7 @@ TEST(Fluctuation, IsThatOfEachPeriod) {
   }
   const auto table = read_fluctuation(folder.put("trace.csv", text), 0.001);
   ASSERT_TRUE(table) << to_string(table.error());
-  ASSERT_EQ(table->rows(), 97U);
+  ASSERT_EQ(table->rows(), 95U);
   int jumps = 0;
   for (std::size_t i = 0; i < table->rows(); ++i) {
     if (table->at(i, 1) > 0.5) {
