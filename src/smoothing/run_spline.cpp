@@ -1,0 +1,290 @@
+#include "smoothing/run_spline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace twin::smoothing {
+namespace {
+
+constexpr double kLongestSpan = 8.0;        // H_max [mm]
+constexpr double kShortestSpan = 1e-4;      // taken as it is [mm]
+constexpr std::size_t kMostBlocks = 512;    // in a span
+constexpr double kAhead = 4.0;              // known ahead of a knot, in spans
+constexpr double kShare = 0.06;             // of the tolerance, left by the local cubics
+constexpr double kBulgeShare = 4.0 / 45.0;  // mean square of a parabola's height about its mean
+constexpr double kLimit = 0.7;              // of the tolerance, a span's deviation
+constexpr int kAttempts = 4;
+constexpr std::size_t kHeldSpans = 8;
+
+}  // namespace
+
+void RunSpline::start(const Vec3& at, double s, double tolerance) {
+  polygon_.start(at, s);
+  tolerance_ = tolerance;
+  is_open_ = true;
+  is_closed_ = is_finished_ = false;
+  cap_ = std::numeric_limits<double>::infinity();
+  attempts_ = 0;
+  begin_at(0);
+}
+
+void RunSpline::push(const Vec3& end) {
+  polygon_.push(end);
+  advance();
+}
+
+void RunSpline::finish() {
+  if (!is_open_) {
+    return;
+  }
+  is_finished_ = true;
+  if (!is_closed_) {
+    is_closed_ = true;
+    end_vertex_ = polygon_.last();
+  }
+  advance();
+}
+
+void RunSpline::begin_at(std::size_t vertex) {
+  polygon_.forget_turn(vertex);
+  begin_vertex_ = vertex;
+  begin_ = polygon_[vertex].s;
+  begin_at_ = polygon_[vertex].at;
+  knots_.restart(0);
+  knots_.push_back({begin_, vertex});
+  points_.restart(0);
+  spans_.restart(0);
+  last_width_ = 0.0;
+}
+
+Stretch RunSpline::stretch() const noexcept {
+  const std::size_t end = is_closed_ ? end_vertex_ : polygon_.last();
+  return {&polygon_, std::max(begin_vertex_, polygon_.first()), end - 1,
+          polygon_[std::max(begin_vertex_, polygon_.first())].s, polygon_[end].s};
+}
+
+/// t_j, also of the reflected knots beyond the run's ends.
+double RunSpline::knot(std::ptrdiff_t j) const noexcept {
+  if (j < 0) {
+    return 2.0 * begin_ - knots_[static_cast<std::size_t>(-j)].s;
+  }
+  const auto last = static_cast<std::ptrdiff_t>(last_knot());
+  return j <= last ? knots_[static_cast<std::size_t>(j)].s
+                   : 2.0 * knots_.back().s - knots_[static_cast<std::size_t>(2 * last - j)].s;
+}
+
+/// Everything that the points known so far decide.
+void RunSpline::advance() {
+  while (is_open_) {
+    if (is_closed_ && end_vertex_ == begin_vertex_ + 1) {
+      const Polygon::Vertex& from = polygon_[begin_vertex_];
+      sink_.take_block(from.at, polygon_[end_vertex_].at, from.s, run_end());
+      end_run();
+    } else if (can_settle()) {
+      settle();
+    } else if (is_marched()) {
+      give_away(spans_.end_index());
+      end_run();
+    } else if (can_march()) {
+      march();
+    } else {
+      return;
+    }
+  }
+}
+
+void RunSpline::end_run() {
+  sink_.end_run();
+  if (end_vertex_ == polygon_.last()) {
+    is_open_ = false;
+    return;
+  }
+  begin_at(end_vertex_);
+  is_closed_ = is_finished_;
+  end_vertex_ = polygon_.last();
+}
+
+/// What the next span may have at most [mm].
+double RunSpline::longest_span() const noexcept {
+  const double grown = last_width_ > 0.0 ? 2.0 * last_width_ : kLongestSpan;
+  const double cap = knots_.back().s < cap_end_ ? cap_ : kLongestSpan;
+  return std::min({grown, cap, kLongestSpan});
+}
+
+bool RunSpline::can_march() const noexcept {
+  const Knot& at = knots_.back();
+  return is_closed_ || polygon_[polygon_.last()].s >= at.s + kAhead * longest_span() ||
+         polygon_.last() - at.block > 4 * kMostBlocks;
+}
+
+/// Halves a span until it has no more than kMostBlocks blocks.
+double RunSpline::capped_by_blocks(double width) const noexcept {
+  const Knot& at = knots_.back();
+  const std::size_t farthest = at.block + kMostBlocks;
+  if (farthest < polygon_.last()) {
+    const double most = polygon_[farthest].s - at.s;
+    while (width > most && width > kShortestSpan) {
+      width *= 0.5;
+    }
+  }
+  if (!is_closed_) {
+    const double known = polygon_[polygon_.last()].s - at.s;
+    while (kAhead * width > known && width > kShortestSpan) {
+      width *= 0.5;
+    }
+  }
+  return width;
+}
+
+bool RunSpline::passes(double width) const noexcept {
+  const Knot& at = knots_.back();
+  const bool has_begin = knots_.begin_index() == 0;
+  const double begin = has_begin ? at.s - width : std::max(at.s - width, knots_.front().s);
+  const LocalCubic cubic(stretch(), at.block, begin, at.s + 2.0 * width);
+  const double allowed = kShare * tolerance_;
+  return cubic.mean_square() <= allowed * allowed + kBulgeShare * cubic.mean_bulge_squared();
+}
+
+/// The next knot. Near a known end the spans divide what is left evenly.
+void RunSpline::march() {
+  const double t = knots_.back().s;
+  const double left = is_closed_ ? run_end() - t : std::numeric_limits<double>::infinity();
+  double longest = capped_by_blocks(longest_span());
+  while (true) {
+    double width = longest;
+    double spans = std::numeric_limits<double>::infinity();
+    if (left <= kAhead * longest) {
+      spans = std::max(std::ceil(left / longest - 1e-9), last_knot() == 0 ? 2.0 : 1.0);
+      width = left / spans;
+    }
+    if (width <= kShortestSpan || passes(width)) {
+      last_width_ = width;
+      add_knot(spans == 1.0 ? run_end() : t + width);
+      return;
+    }
+    longest *= 0.5;
+  }
+}
+
+void RunSpline::add_knot(double s) {
+  const Stretch all = stretch();
+  knots_.push_back({s, polygon_.block_at(s, knots_.back().block, all.first, all.last)});
+  place_points();
+}
+
+/// The control points that the latest knot decides.
+void RunSpline::place_points() {
+  const std::size_t k = last_knot();
+  if (k >= 2) {
+    const Knot& from = knots_[k - 2];
+    const LocalCubic cubic(stretch(), from.block, from.s, knots_[k].s);
+    const Vec3 point = cubic.blossom(knots_[k - 1].s);
+    if (k == 2) {
+      points_.push_back(2.0 * begin_at_ - point);
+      points_.push_back(begin_at_);
+    }
+    points_.push_back(point);
+  }
+  if (is_marched()) {
+    const Vec3 end = polygon_[end_vertex_].at;
+    const Vec3 before = points_.back();
+    points_.push_back(end);
+    points_.push_back(2.0 * end - before);
+  }
+}
+
+bool RunSpline::can_settle() const noexcept {
+  const std::size_t span = spans_.end_index();
+  return is_marched() ? span < last_knot() : span + 3 <= last_knot();
+}
+
+nurbs::SpanCubic RunSpline::cubic_of(std::size_t span) const noexcept {
+  std::array<double, 6> u{};
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    u[k] = knot(static_cast<std::ptrdiff_t>(span + k) - 2);
+  }
+  return nurbs::span_cubic(nurbs::SpanView{&u[2], &points_[span], nullptr});
+}
+
+/// The next span with its bound, if it keeps it.
+void RunSpline::settle() {
+  const std::size_t span = spans_.end_index();
+  const nurbs::SpanCubic cubic = cubic_of(span);
+  const Deviation deviation = chord_deviation(cubic, polygon_, knots_[span].block, stretch().last);
+  const bool is_shortest = cubic.end - cubic.begin <= kShortestSpan;
+  if (!(deviation.bound <= kLimit * tolerance_) && !is_shortest) {
+    march_again(span, deviation.block);
+    return;
+  }
+  spans_.push_back({cubic, deviation.bound});
+  if (cubic.begin >= cap_end_) {
+    attempts_ = 0;
+  }
+  if (spans_.size() > kHeldSpans) {
+    give_away(spans_.begin_index() + 1);
+  }
+}
+
+/// Spans up to the one before `end` come out.
+void RunSpline::give_away(std::size_t end) {
+  for (std::size_t i = spans_.begin_index(); i < end; ++i) {
+    sink_.take_span(spans_[i].cubic, spans_[i].deviation);
+  }
+  spans_.drop_before(end);
+  if (end > 3) {
+    knots_.drop_before(end - 3);
+    points_.drop_before(end - 3);
+    polygon_.drop_before(knots_.front().block);
+  }
+}
+
+/// A span that exceeds its limit: shorter ones, or a corner.
+void RunSpline::march_again(std::size_t span, std::size_t worst_block) {
+  const double width = knot(static_cast<std::ptrdiff_t>(span) + 1) - knots_[span].s;
+  if (++attempts_ > kAttempts && cut(worst_block)) {
+    return;
+  }
+  cap_ = 0.5 * (knots_[span].s < cap_end_ ? std::min(width, cap_) : width);
+  cap_end_ = knots_[span].s + 2.0 * width;
+  const std::size_t given = spans_.begin_index();
+  const std::size_t kept = given == 0 ? 0 : given + 2;
+  truncate(std::max(span > 2 ? span - 2 : 0, kept));
+}
+
+/// Forgets the knots after `last` and what they decided.
+void RunSpline::truncate(std::size_t last) {
+  knots_.truncate(last + 1);
+  points_.truncate(last >= 2 ? last + 1 : 0);
+  spans_.truncate(std::max(last >= 3 ? last - 2 : 0, spans_.begin_index()));
+  last_width_ = last > 0 ? knots_[last].s - knots_[last - 1].s : 0.0;
+}
+
+/// Ends the run at the sharper end of a block, as far as that is not given away.
+bool RunSpline::cut(std::size_t block) {
+  const std::size_t given = spans_.begin_index();
+  const std::size_t kept = given == 0 ? 0 : given + 2;
+  const std::size_t end = is_closed_ ? end_vertex_ : polygon_.last();
+  const auto turn = [&](std::size_t vertex) {
+    const bool is_inside = vertex > begin_vertex_ && vertex < end &&
+                           polygon_[vertex].s > knots_[kept].s + kShortestSpan;
+    return is_inside ? polygon_[vertex].turn : -1.0;
+  };
+  const std::size_t vertex = turn(block) > turn(block + 1) ? block : block + 1;
+  if (turn(vertex) < 0.0) {
+    return false;
+  }
+  attempts_ = 0;
+  std::size_t last = last_knot();
+  while (last > kept && knots_[last].s > polygon_[vertex].s - kShortestSpan) {
+    --last;
+  }
+  polygon_.forget_turn(vertex);
+  is_closed_ = true;
+  end_vertex_ = vertex;
+  const std::size_t span = spans_.end_index();
+  truncate(std::max(std::min(last, span > 2 ? span - 2 : 0), kept));
+  return true;
+}
+
+}  // namespace twin::smoothing
