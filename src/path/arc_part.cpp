@@ -8,8 +8,8 @@
 namespace twin::path {
 namespace {
 
-constexpr double kAccuracy = 1e-6;  // of the pieces [mm]
-constexpr int kFewestSpans = 2;
+constexpr double kAccuracy = 1e-5;  // of the pieces [mm]
+constexpr int kFewestSpans = 4;
 constexpr int kMostSpans = 4096;
 constexpr double kSlack = 2.0;  // of C'''' for the change of radius and the rise
 

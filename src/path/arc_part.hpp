@@ -18,7 +18,7 @@ Arc arc_part(const Arc& arc, double from, double to) noexcept;
 ///   P_j = C(t_{j+2}) - (w^2 / 6) C''(t_{j+2}).
 /// The error e of a span has e'''' = -C'''', of size 1 / r^3 on a circle, and is bounded by
 ///   max |Bezier points of e's cubic Hermite interpolant| + w^4 / 384 max|C''''|;
-/// w is made so small that this stays below 1 nm, with 4096 spans at most.
+/// w is made so small that this stays below 10 nm, with 4096 spans at most.
 ///
 /// @param from, to  arc lengths on the arc [mm]
 /// @param s0        added to the arc length to give the parameter of the pieces [mm]

@@ -11,7 +11,7 @@ namespace {
 constexpr double kWidest = 4.0;         // half width of a bump [mm]
 constexpr double kLeastPace = 0.02;     // |dC/ds| at a corner
 constexpr double kNoJump = 1e-10;       // of C' [-] and C'' [1/mm]
-constexpr double kArcDeviation = 1e-6;  // of an arc's pieces [mm]
+constexpr double kArcDeviation = 1e-5;  // of an arc's pieces [mm]
 constexpr double kShareUsed = 0.99;     // of the tolerance
 constexpr double kMergedLine = 1.0;     // a shorter line between two bumps is part of a curve [mm]
 constexpr double kNothing = 1e-9;       // a length that is none [mm]
@@ -135,6 +135,9 @@ void Joiner::settle_begin() {
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
   if (width < 2.0 * smoothing::kShortestPiece) {
     put_body(before_, before_.end);
+    if (has_jump) {
+      writer_.end_curve();
+    }
     return;
   }
   put_body(before_, before_.end - width);

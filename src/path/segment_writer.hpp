@@ -47,6 +47,8 @@ class SegmentWriter {
   void arc(const Arc& arc, double begin, double end);
   /// A segment that is complete, with marks of its own.
   void whole(Segment&& segment);
+  /// The path is not smooth here.
+  void end_curve() { flush(); }
   /// Everything so far comes out.
   void finish();
 
