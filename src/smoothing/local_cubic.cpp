@@ -69,6 +69,7 @@ void LocalCubic::add(double from, const Vec3& start, double to, const Vec3& end,
   moment_[3] += (weight * a * (a * a + dd)) * middle + (weight * d * (a * a + dd / 5.0)) * slope;
   square_ += weight * (middle.squaredNorm() + slope.squaredNorm() / 3.0);
   bulge_ += weight * bulge;
+  ++blocks_;
 }
 
 /// Moments of x^k become coefficients of Legendre's polynomials.

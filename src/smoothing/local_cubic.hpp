@@ -48,6 +48,13 @@ class LocalCubic {
   /// since the blossoms of 1, x, x^2, x^3 at (-1, x, 1) are 1, x/3, -1/3, -x [mm].
   Vec3 blossom(double middle) const noexcept;
 
+  /// Angle by which the cubic turns over the interval, nearly: |C''| in the middle times the length
+  /// of the interval, |C''| = 3 |c_2| / half width^2 [rad].
+  double turn() const noexcept { return 6.0 * moment_[2].norm() / half_; }
+
+  /// Number of blocks in the interval, whole or in part.
+  int blocks() const noexcept { return blocks_; }
+
  private:
   void add(double from, const Vec3& start, double to, const Vec3& end, double bulge) noexcept;
   void add_blocks(const Stretch& stretch, std::size_t block, double from, double to,
@@ -61,6 +68,32 @@ class LocalCubic {
   double square_ = 0.0;
   double bulge_ = 0.0;
   double mean_square_ = 0.0;
+  int blocks_ = 0;
+};
+
+/// The blossom of LocalCubic as an integral: f gives the point
+///   integral of f(s) K(s) ds / half width,
+///   K = 1/2 + (x_m / 2) x - (5/2) L_2(x) - (21/2) x_m L_3(x),   x_m that of the middle place,
+/// by its Eqs. 1 and 3.
+class BlossomKernel {
+ public:
+  BlossomKernel(double begin, double middle, double end) noexcept
+      : centre_(0.5 * (begin + end)),
+        inverse_(2.0 / (end - begin)),
+        middle_((middle - centre_) * inverse_) {}
+
+  /// K over the half width, at s [1/mm].
+  double at(double s) const noexcept {
+    const double x = (s - centre_) * inverse_;
+    const double l2 = 1.5 * x * x - 0.5;
+    const double l3 = x * (2.5 * x * x - 1.5);
+    return inverse_ * (0.5 + 0.5 * middle_ * x - 2.5 * l2 - 10.5 * middle_ * l3);
+  }
+
+ private:
+  double centre_;
+  double inverse_;  // of the half width
+  double middle_;
 };
 
 }  // namespace twin::smoothing

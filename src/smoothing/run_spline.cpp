@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "nurbs/gauss_legendre.hpp"
+
 namespace twin::smoothing {
 namespace {
 
@@ -15,7 +17,10 @@ constexpr double kShare = 0.06;             // of the tolerance, left by the loc
 constexpr double kBulgeShare = 4.0 / 45.0;  // mean square of a parabola's height about its mean
 constexpr double kLimit = 0.7;              // of the tolerance, a span's deviation
 constexpr int kAttempts = 4;
-constexpr std::size_t kHeldSpans = 8;
+constexpr std::size_t kHeldSpans = 10;
+constexpr std::size_t kReach = 5;   // a span depends on knots to this many after its begin
+constexpr double kMostTurn = 0.35;  // of a span [rad]
+constexpr int kFewestBlocks = 4;    // in a span whose turn can be told
 
 }  // namespace
 
@@ -53,6 +58,7 @@ void RunSpline::begin_at(std::size_t vertex) {
   begin_at_ = polygon_[vertex].at;
   knots_.restart(0);
   knots_.push_back({begin_, vertex});
+  raw_.restart(0);
   points_.restart(0);
   spans_.restart(0);
   last_width_ = 0.0;
@@ -143,6 +149,9 @@ bool RunSpline::passes(double width) const noexcept {
   const double begin = has_begin ? at.s - width : std::max(at.s - width, knots_.front().s);
   const LocalCubic cubic(stretch(), at.block, begin, at.s + 2.0 * width);
   const double allowed = kShare * tolerance_;
+  if (cubic.turn() > 3.0 * kMostTurn && cubic.blocks() > 3 * kFewestBlocks) {
+    return false;
+  }
   return cubic.mean_square() <= allowed * allowed + kBulgeShare * cubic.mean_bulge_squared();
 }
 
@@ -173,7 +182,7 @@ void RunSpline::add_knot(double s) {
   place_points();
 }
 
-/// The control points that the latest knot decides.
+/// The points Q that the latest knot decides, and what follows from them.
 void RunSpline::place_points() {
   const std::size_t k = last_knot();
   if (k >= 2) {
@@ -181,6 +190,26 @@ void RunSpline::place_points() {
     const LocalCubic cubic(stretch(), from.block, from.s, knots_[k].s);
     const Vec3 point = cubic.blossom(knots_[k - 1].s);
     if (k == 2) {
+      raw_.push_back(2.0 * begin_at_ - point);
+      raw_.push_back(begin_at_);
+    }
+    raw_.push_back(point);
+  }
+  if (is_marched()) {
+    const Vec3 end = polygon_[end_vertex_].at;
+    const Vec3 before = raw_.back();
+    raw_.push_back(end);
+    raw_.push_back(2.0 * end - before);
+  }
+  correct_points();
+}
+
+/// The control points P that the points Q decide.
+void RunSpline::correct_points() {
+  while (std::max<std::size_t>(points_.end_index(), 2) + 2 < raw_.end_index()) {
+    const std::size_t i = std::max<std::size_t>(points_.end_index(), 2);
+    const Vec3 point = 2.0 * raw_[i] - refitted(i);
+    if (i == 2) {
       points_.push_back(2.0 * begin_at_ - point);
       points_.push_back(begin_at_);
     }
@@ -194,23 +223,40 @@ void RunSpline::place_points() {
   }
 }
 
-bool RunSpline::can_settle() const noexcept {
-  const std::size_t span = spans_.end_index();
-  return is_marched() ? span < last_knot() : span + 3 <= last_knot();
+/// What the spline through the points Q gives in the place of Q_{i-3}.
+Vec3 RunSpline::refitted(std::size_t i) const noexcept {
+  const auto j = static_cast<std::ptrdiff_t>(i);
+  const BlossomKernel kernel(knot(j - 2), knot(j - 1), knot(j));
+  Vec3 sum = Vec3::Zero();
+  for (const std::size_t span : {i - 2, i - 1}) {
+    const nurbs::SpanCubic cubic = cubic_of(raw_, span);
+    const double half = 0.5 * (cubic.end - cubic.begin);
+    for (int k = 0; k < nurbs::gauss::kPoints; ++k) {
+      const double s = cubic.begin + half * (1.0 + nurbs::gauss::kNodes[k]);
+      sum += (half * nurbs::gauss::kWeights[k] * kernel.at(s)) * (cubic.position(s) - raw_[i]);
+    }
+  }
+  return raw_[i] + sum;
 }
 
-nurbs::SpanCubic RunSpline::cubic_of(std::size_t span) const noexcept {
+bool RunSpline::can_settle() const noexcept {
+  const std::size_t span = spans_.end_index();
+  return is_marched() ? span < last_knot() : span + kReach <= last_knot();
+}
+
+nurbs::SpanCubic RunSpline::cubic_of(const SlidingVector<Vec3>& points,
+                                     std::size_t span) const noexcept {
   std::array<double, 6> u{};
   for (std::size_t k = 0; k < u.size(); ++k) {
     u[k] = knot(static_cast<std::ptrdiff_t>(span + k) - 2);
   }
-  return nurbs::span_cubic(nurbs::SpanView{&u[2], &points_[span], nullptr});
+  return nurbs::span_cubic(nurbs::SpanView{&u[2], &points[span], nullptr});
 }
 
 /// The next span with its bound, if it keeps it.
 void RunSpline::settle() {
   const std::size_t span = spans_.end_index();
-  const nurbs::SpanCubic cubic = cubic_of(span);
+  const nurbs::SpanCubic cubic = cubic_of(points_, span);
   const Deviation deviation = chord_deviation(cubic, polygon_, knots_[span].block, stretch().last);
   const bool is_shortest = cubic.end - cubic.begin <= kShortestSpan;
   if (!(deviation.bound <= kLimit * tolerance_) && !is_shortest) {
@@ -234,6 +280,7 @@ void RunSpline::give_away(std::size_t end) {
   spans_.drop_before(end);
   if (end > 3) {
     knots_.drop_before(end - 3);
+    raw_.drop_before(end - 3);
     points_.drop_before(end - 3);
     polygon_.drop_before(knots_.front().block);
   }
@@ -248,22 +295,23 @@ void RunSpline::march_again(std::size_t span, std::size_t worst_block) {
   cap_ = 0.5 * (knots_[span].s < cap_end_ ? std::min(width, cap_) : width);
   cap_end_ = knots_[span].s + 2.0 * width;
   const std::size_t given = spans_.begin_index();
-  const std::size_t kept = given == 0 ? 0 : given + 2;
-  truncate(std::max(span > 2 ? span - 2 : 0, kept));
+  const std::size_t kept = given == 0 ? 0 : given + kReach - 1;
+  truncate(std::max(span > 3 ? span - 3 : 0, kept));
 }
 
 /// Forgets the knots after `last` and what they decided.
 void RunSpline::truncate(std::size_t last) {
   knots_.truncate(last + 1);
-  points_.truncate(last >= 2 ? last + 1 : 0);
-  spans_.truncate(std::max(last >= 3 ? last - 2 : 0, spans_.begin_index()));
+  raw_.truncate(last >= 2 ? last + 1 : 0);
+  points_.truncate(last >= kReach - 1 ? last - 1 : 0);
+  spans_.truncate(std::max(last >= kReach ? last - kReach + 1 : 0, spans_.begin_index()));
   last_width_ = last > 0 ? knots_[last].s - knots_[last - 1].s : 0.0;
 }
 
 /// Ends the run at the sharper end of a block, as far as that is not given away.
 bool RunSpline::cut(std::size_t block) {
   const std::size_t given = spans_.begin_index();
-  const std::size_t kept = given == 0 ? 0 : given + 2;
+  const std::size_t kept = given == 0 ? 0 : given + kReach - 1;
   const std::size_t end = is_closed_ ? end_vertex_ : polygon_.last();
   const auto turn = [&](std::size_t vertex) {
     const bool is_inside = vertex > begin_vertex_ && vertex < end &&
@@ -283,7 +331,7 @@ bool RunSpline::cut(std::size_t block) {
   is_closed_ = true;
   end_vertex_ = vertex;
   const std::size_t span = spans_.end_index();
-  truncate(std::max(std::min(last, span > 2 ? span - 2 : 0), kept));
+  truncate(std::max(std::min(last, span > 3 ? span - 3 : 0), kept));
   return true;
 }
 

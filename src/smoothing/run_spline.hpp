@@ -32,17 +32,20 @@ class RunSink {
 /// Fits a run of short blocks by one C2 cubic spline over the arc length s of their polygon, with
 /// as few spans as the tolerance allows, from a stream of points.
 ///
-/// The spline is the quasi-interpolant
-///   C(s) = sum_j P_j N_j(s),   P_j = the blossom at (t_{j+1}, t_{j+2}, t_{j+3}) of the cubic that
-///                              is nearest to the polygon on [t_{j+1}, t_{j+3}] (LocalCubic).   (1)
-/// It reproduces cubics, averages the rounding of the points, and P_j depends on two spans only: no
-/// system of equations, no effect of a change far away.
+/// The spline is a quasi-interpolant, corrected once. With
+///   Q_j[f] = the blossom at (t_{j+1}, t_{j+2}, t_{j+3}) of the cubic that is nearest to f on
+///            [t_{j+1}, t_{j+3}] (LocalCubic),                                                 (1)
+/// Q[f] = sum_j Q_j[f] N_j reproduces cubics and averages the rounding of the points, but lies off
+/// a curve f by 0.031 H^4 |d4f/ds4| all along. What it makes of itself shows how far:
+///   C(s) = sum_j P_j N_j(s),   P_j = 2 Q_j[V] - Q_j[Q[V]].                                     (2)
+/// P_j depends on the six spans around it: no system of equations, no effect of a change far away.
 ///
 /// The knots t_j march along the run. A span has the largest length H of H_max 2^-k, at most twice
 /// the last one, for which the cubic nearest to the polygon on [t - H, t + 2 H] leaves no more than
 /// kShare of the tolerance (root mean square, less what the chords themselves leave out of their
-/// arcs). Since the window looks ahead and back, spans become short towards a tight place and long
-/// behind it.
+/// arcs), and that turns by no more than kMostTurn over H, for the curvature of a spline is right
+/// to a twelfth of the square of that. Since the window looks ahead and back, spans become short
+/// towards a tight place and long behind it.
 ///
 /// At both ends of the run the polygon goes on as its own point reflection, and so do the knots:
 /// there C is the end point itself, and C'' = 0.
@@ -91,7 +94,9 @@ class RunSpline {
   void advance();
   void add_knot(double s);
   void place_points();
-  nurbs::SpanCubic cubic_of(std::size_t span) const noexcept;
+  void correct_points();
+  Vec3 refitted(std::size_t point) const noexcept;
+  nurbs::SpanCubic cubic_of(const SlidingVector<Vec3>& points, std::size_t span) const noexcept;
   void settle();
   void march_again(std::size_t span, std::size_t worst_block);
   bool cut(std::size_t block);
@@ -104,7 +109,8 @@ class RunSpline {
   double tolerance_ = 0.0;
   Polygon polygon_;
   SlidingVector<Knot> knots_;                             // t_0, t_1, ...
-  SlidingVector<Vec3> points_;                            // P_{j-3} at index j
+  SlidingVector<Vec3> raw_;       // Q_{j-3} at index j
+  SlidingVector<Vec3> points_;    // P_{j-3} at index j
   SlidingVector<Span> spans_;                             // settled, not yet given away
   std::size_t begin_vertex_ = 0;                          // of the run under way
   double begin_ = 0.0;                                    // its arc length
