@@ -11,7 +11,7 @@ constexpr double kNoMirror = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 LocalCubic::LocalCubic(const Stretch& stretch, std::size_t block, double begin, double end) noexcept
-    : centre_(0.5 * (begin + end)), half_(0.5 * (end - begin)) {
+    : centre_(0.5 * (begin + end)), half_(0.5 * (end - begin)), inverse_(1.0 / half_) {
   const Polygon& polygon = *stretch.polygon;
   origin_ = polygon[block].at;
   if (begin < stretch.begin) {
@@ -57,17 +57,20 @@ void LocalCubic::add_blocks(const Stretch& stretch, std::size_t block, double fr
 
 void LocalCubic::add(double from, const Vec3& start, double to, const Vec3& end,
                      double bulge) noexcept {
-  const double a = (0.5 * (from + to) - centre_) / half_;
-  const double d = 0.5 * (to - from) / half_;
+  constexpr double kThird = 1.0 / 3.0;
+  constexpr double kFifth = 1.0 / 5.0;
+  const double a = (0.5 * (from + to) - centre_) * inverse_;
+  const double d = 0.5 * (to - from) * inverse_;
   const double weight = 2.0 * d;
   const Vec3 middle = 0.5 * (start + end) - origin_;
   const Vec3 slope = 0.5 * (end - start);
+  const double aa = a * a;
   const double dd = d * d;
   moment_[0] += weight * middle;
-  moment_[1] += (weight * a) * middle + (weight * d / 3.0) * slope;
-  moment_[2] += (weight * (a * a + dd / 3.0)) * middle + (weight * 2.0 * a * d / 3.0) * slope;
-  moment_[3] += (weight * a * (a * a + dd)) * middle + (weight * d * (a * a + dd / 5.0)) * slope;
-  square_ += weight * (middle.squaredNorm() + slope.squaredNorm() / 3.0);
+  moment_[1] += (weight * a) * middle + (weight * d * kThird) * slope;
+  moment_[2] += (weight * (aa + dd * kThird)) * middle + (weight * 2.0 * kThird * a * d) * slope;
+  moment_[3] += (weight * a * (aa + dd)) * middle + (weight * d * (aa + dd * kFifth)) * slope;
+  square_ += weight * (middle.squaredNorm() + kThird * slope.squaredNorm());
   bulge_ += weight * bulge;
   ++blocks_;
 }

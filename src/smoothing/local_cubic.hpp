@@ -63,6 +63,7 @@ class LocalCubic {
 
   double centre_;
   double half_;
+  double inverse_;  // of half_
   Vec3 origin_;
   std::array<Vec3, 4> moment_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   double square_ = 0.0;

@@ -13,14 +13,16 @@ constexpr double kLongestSpan = 8.0;        // H_max [mm]
 constexpr double kShortestSpan = 1e-4;      // taken as it is [mm]
 constexpr std::size_t kMostBlocks = 512;    // in a span
 constexpr double kAhead = 4.0;              // known ahead of a knot, in spans
-constexpr double kShare = 0.1;             // of the tolerance, left by the local cubics
+constexpr double kShare = 0.1;              // of the tolerance, left by the local cubics
 constexpr double kBulgeShare = 4.0 / 45.0;  // mean square of a parabola's height about its mean
 constexpr double kLimit = 0.7;              // of the tolerance, a span's deviation
 constexpr int kAttempts = 4;
 constexpr std::size_t kHeldSpans = 10;
-constexpr std::size_t kReach = 5;   // a span depends on knots to this many after its begin
-constexpr double kMostTurn = 0.35;  // of a span [rad]
-constexpr int kFewestBlocks = 4;    // in a span whose turn can be told
+constexpr std::size_t kReach = 5;        // a span depends on knots to this many after its begin
+constexpr double kMostTurn = 0.35;       // of a span [rad]
+constexpr double kGrowing = 1.0 / 64.0;  // of the allowed residual; twice as long, 256 times it
+constexpr int kSpansToGrow = 3;          // else, before a longer one is tried
+constexpr int kFewestBlocks = 4;         // in a span whose turn can be told
 
 }  // namespace
 
@@ -62,6 +64,7 @@ void RunSpline::begin_at(std::size_t vertex) {
   points_.restart(0);
   spans_.restart(0);
   last_width_ = 0.0;
+  spans_to_grow_ = 0;
 }
 
 Stretch RunSpline::stretch() const noexcept {
@@ -143,16 +146,19 @@ double RunSpline::capped_by_blocks(double width) const noexcept {
   return width;
 }
 
-bool RunSpline::passes(double width) const noexcept {
+/// Mean square of what the nearest cubic leaves of the polygon around the next span, as a multiple
+/// of what is allowed; infinite where the polygon turns too far.
+double RunSpline::residual(double width) const noexcept {
   const Knot& at = knots_.back();
   const bool has_begin = knots_.begin_index() == 0;
   const double begin = has_begin ? at.s - width : std::max(at.s - width, knots_.front().s);
   const LocalCubic cubic(stretch(), at.block, begin, at.s + 2.0 * width);
-  const double allowed = kShare * tolerance_;
   if (cubic.turn() > 3.0 * kMostTurn && cubic.blocks() > 3 * kFewestBlocks) {
-    return false;
+    return std::numeric_limits<double>::infinity();
   }
-  return cubic.mean_square() <= allowed * allowed + kBulgeShare * cubic.mean_bulge_squared();
+  const double allowed = kShare * tolerance_;
+  return std::max(0.0, cubic.mean_square() - kBulgeShare * cubic.mean_bulge_squared()) /
+         (allowed * allowed);
 }
 
 /// The next knot. Near a known end the spans divide what is left evenly.
@@ -160,6 +166,9 @@ void RunSpline::march() {
   const double t = knots_.back().s;
   const double left = is_closed_ ? run_end() - t : std::numeric_limits<double>::infinity();
   double longest = capped_by_blocks(longest_span());
+  if (longest > last_width_ && --spans_to_grow_ >= 0) {
+    longest = std::max(0.5 * longest, std::min(longest, last_width_));
+  }
   while (true) {
     double width = longest;
     double spans = std::numeric_limits<double>::infinity();
@@ -167,7 +176,13 @@ void RunSpline::march() {
       spans = std::max(std::ceil(left / longest - 1e-9), last_knot() == 0 ? 2.0 : 1.0);
       width = left / spans;
     }
-    if (width <= kShortestSpan || passes(width)) {
+    const double rest = width <= kShortestSpan ? 0.0 : residual(width);
+    if (rest <= 1.0) {
+      if (rest <= kGrowing) {
+        spans_to_grow_ = 0;
+      } else if (spans_to_grow_ < 0) {
+        spans_to_grow_ = kSpansToGrow;
+      }
       last_width_ = width;
       add_knot(spans == 1.0 ? run_end() : t + width);
       return;
@@ -305,6 +320,7 @@ void RunSpline::truncate(std::size_t last) {
   raw_.truncate(last >= 2 ? last + 1 : 0);
   points_.truncate(last >= kReach - 1 ? last - 1 : 0);
   spans_.truncate(std::max(last >= kReach ? last - kReach + 1 : 0, spans_.begin_index()));
+  spans_to_grow_ = 0;
   last_width_ = last > 0 ? knots_[last].s - knots_[last - 1].s : 0.0;
 }
 

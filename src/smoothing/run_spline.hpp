@@ -41,11 +41,12 @@ class RunSink {
 /// P_j depends on the six spans around it: no system of equations, no effect of a change far away.
 ///
 /// The knots t_j march along the run. A span has the largest length H of H_max 2^-k, at most twice
-/// the last one, for which the cubic nearest to the polygon on [t - H, t + 2 H] leaves no more than
-/// kShare of the tolerance (root mean square, less what the chords themselves leave out of their
-/// arcs), and that turns by no more than kMostTurn over H, for the curvature of a spline is right
-/// to a twelfth of the square of that. Since the window looks ahead and back, spans become short
-/// towards a tight place and long behind it.
+/// the last one (tried where it is likely to do, and at every fourth span), for which the cubic
+/// nearest to the polygon on [t - H, t + 2 H] leaves no more than kShare of the tolerance (root
+/// mean square, less what the chords themselves leave out of their arcs), and that turns by no more
+/// than kMostTurn over H, for the curvature of a spline is right to a twelfth of the square of
+/// that. Since the window looks ahead and back, spans become short towards a tight place and long
+/// behind it.
 ///
 /// At both ends of the run the polygon goes on as its own point reflection, and so do the knots:
 /// there C is the end point itself, and C'' = 0.
@@ -88,7 +89,7 @@ class RunSpline {
   bool can_settle() const noexcept;
   double longest_span() const noexcept;
   double capped_by_blocks(double width) const noexcept;
-  bool passes(double width) const noexcept;
+  double residual(double width) const noexcept;
   bool can_march() const noexcept;
   void march();
   void advance();
@@ -109,14 +110,15 @@ class RunSpline {
   double tolerance_ = 0.0;
   Polygon polygon_;
   SlidingVector<Knot> knots_;                             // t_0, t_1, ...
-  SlidingVector<Vec3> raw_;       // Q_{j-3} at index j
-  SlidingVector<Vec3> points_;    // P_{j-3} at index j
+  SlidingVector<Vec3> raw_;                               // Q_{j-3} at index j
+  SlidingVector<Vec3> points_;                            // P_{j-3} at index j
   SlidingVector<Span> spans_;                             // settled, not yet given away
   std::size_t begin_vertex_ = 0;                          // of the run under way
   double begin_ = 0.0;                                    // its arc length
   Vec3 begin_at_ = Vec3::Zero();                          // its place
   std::size_t end_vertex_ = 0;                            // where it is closed
   double last_width_ = 0.0;                               // of the latest span; 0: none
+  int spans_to_grow_ = 0;                                 // before a longer one is tried
   double cap_ = std::numeric_limits<double>::infinity();  // of spans that begin before cap_end_
   double cap_end_ = 0.0;
   int attempts_ = 0;
