@@ -65,6 +65,12 @@ struct SegmentFigures {
   std::int64_t arcs = 0;
 };
 
+/// What a path with a guarantee has.
+struct CertifiedFigures {
+  double deviation = 0.0;  ///< bound of the path's distance from the program, both ways [mm]
+  std::int64_t spans = 0;  ///< of the fitted curves
+};
+
 /// What only a run on a machine has.
 struct MachineFigures {
   double machining_time = 0.0;                 ///< first set point to last sample [s]
@@ -86,11 +92,12 @@ struct Summary {
   double period = 0.001;     ///< [s]
   BlockFigures blocks;
   SegmentFigures segments;
-  double compression_factor = 0.0;     ///< blocks over segments [-]
-  double path_length = 0.0;            ///< [mm]
-  double planned_time = 0.0;           ///< [s]
-  ErrorFigures command_contour_error;  ///< set points against programmed path
-  ShareFigures feedrate_fluctuation;   ///< see FeedrateFluctuation
+  std::optional<CertifiedFigures> certified;  ///< else its keys are left out
+  double compression_factor = 0.0;            ///< blocks over segments [-]
+  double path_length = 0.0;                   ///< [mm]
+  double planned_time = 0.0;                  ///< [s]
+  ErrorFigures command_contour_error;         ///< set points against programmed path
+  ShareFigures feedrate_fluctuation;          ///< see FeedrateFluctuation
   AuditPeaks audit;
   std::optional<MachineFigures> run;  ///< absent for a plan; its keys are then left out
 };

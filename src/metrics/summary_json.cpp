@@ -28,11 +28,15 @@ Json blocks_of(const BlockFigures& blocks) {
             {"max", rounded(blocks.length_max)}}}};
 }
 
-Json segments_of(const SegmentFigures& segments) {
-  return {{"total", segments.total},
-          {"curves", segments.curves},
-          {"lines", segments.lines},
-          {"arcs", segments.arcs}};
+Json segments_of(const SegmentFigures& segments, const std::optional<CertifiedFigures>& certified) {
+  Json json = {{"total", segments.total},
+               {"curves", segments.curves},
+               {"lines", segments.lines},
+               {"arcs", segments.arcs}};
+  if (certified) {
+    json["spans"] = certified->spans;
+  }
+  return json;
 }
 
 Json audit_of(const AuditPeaks& audit) {
@@ -83,12 +87,15 @@ std::string to_json(const Summary& summary) {
   json["simulated"] = summary.simulated;
   json["period_s"] = rounded(summary.period);
   json["blocks"] = blocks_of(summary.blocks);
-  json["segments"] = segments_of(summary.segments);
+  json["segments"] = segments_of(summary.segments, summary.certified);
   json["compression_factor"] = rounded(summary.compression_factor);
   json["path_length_mm"] = rounded(summary.path_length);
   json["planned_time_s"] = rounded(summary.planned_time);
   if (summary.run) {
     json["machining_time_s"] = rounded(summary.run->machining_time);
+  }
+  if (summary.certified) {
+    json["certified_deviation_um"] = rounded(units::um_from_mm(summary.certified->deviation));
   }
   json["command_contour_error_um"] = error_um(summary.command_contour_error);
   if (summary.run) {

@@ -55,6 +55,11 @@ void add_path(Table& table, const Summary& s) {
   table.line("segments",
              fmt::format("{}: {}, {}, {}", s.segments.total, plural(s.segments.curves, "curve"),
                          plural(s.segments.lines, "line"), plural(s.segments.arcs, "arc")));
+  if (s.certified) {
+    table.line("spans", fmt::format("{}", s.certified->spans));
+    table.line("certified deviation",
+               fmt::format("{:.3f} um", units::um_from_mm(s.certified->deviation)));
+  }
   table.line("compression factor", fmt::format("{:.2f}", s.compression_factor));
   table.line("path length", fmt::format("{:.3f} mm", s.path_length));
   table.line("planned time", fmt::format("{:.3f} s", s.planned_time));

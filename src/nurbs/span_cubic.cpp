@@ -6,7 +6,10 @@ namespace twin::nurbs {
 
 SpanCubic span_cubic(const Curve& curve, int span) noexcept {
   assert(curve.degree() == 3 && !curve.is_rational());
-  const SpanView view = curve.span_view(span);
+  return span_cubic(curve.span_view(span));
+}
+
+SpanCubic span_cubic(const SpanView& view) noexcept {
   const double* u = view.knot;  // u[0] is u_s
   const Vec3* p = view.point;   // P_{s-3} .. P_s
   const double w3 = 1.0 / (u[1] - u[0]);

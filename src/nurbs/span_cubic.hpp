@@ -28,4 +28,8 @@ struct SpanCubic {
 /// @note Real-time safe.
 SpanCubic span_cubic(const Curve& curve, int span) noexcept;
 
+/// The same of a span of degree 3 without weights.
+/// @note Real-time safe.
+SpanCubic span_cubic(const SpanView& view) noexcept;
+
 }  // namespace twin::nurbs

@@ -50,6 +50,24 @@ Segment make_segment(const gcode::Block& block, std::int64_t number, const Limit
   return segment;
 }
 
+std::vector<Segment> make_nurbs_segments(const gcode::Block& block, std::int64_t number,
+                                         int most_spans, const Limits& limits,
+                                         const PlanningModel& model) {
+  constexpr int kSmooth = 2;  // derivatives that are continuous
+  std::vector<Segment> segments;
+  for (nurbs::Curve& piece : nurbs::split(block.nurbs->curve, {kSmooth, most_spans})) {
+    FittedCurve given;
+    given.curve = std::move(piece);
+    given.is_programmed = true;
+    measure(given);
+    Segment segment = make_curve_segment(std::move(given));
+    set_demands(segment, block, limits, model);
+    segment.marks.push_back({segment.length, segment.length, number, block.line});
+    segments.push_back(std::move(segment));
+  }
+  return segments;
+}
+
 PathBuilder::PathBuilder(const PathSettings& settings, const PlanningModel& model,
                          const Limits& limits, Sink sink)
     : settings_(settings),
@@ -80,7 +98,10 @@ void PathBuilder::push(const gcode::Block& block) {
   const std::int64_t number = next_block_++;
   if (block.motion == gcode::Motion::kNurbs) {
     run_.finish();
-    push_nurbs(block, number);
+    for (Segment& segment :
+         make_nurbs_segments(block, number, settings_.max_segments, limits_, model_)) {
+      sink_(std::move(segment));
+    }
     return;
   }
   if (!is_short(block)) {
@@ -93,21 +114,6 @@ void PathBuilder::push(const gcode::Block& block) {
   }
   run_.push(block, number);
   last_ = block;
-}
-
-/// Pieces of at most max_segments spans, cut where the curvature jumps or the tangent turns.
-void PathBuilder::push_nurbs(const gcode::Block& block, std::int64_t number) {
-  constexpr int kSmooth = 2;  // derivatives that are continuous
-  for (nurbs::Curve& piece : nurbs::split(block.nurbs->curve, {kSmooth, settings_.max_segments})) {
-    FittedCurve given;
-    given.curve = std::move(piece);
-    given.is_programmed = true;
-    measure(given);
-    Segment segment = make_curve_segment(std::move(given));
-    set_demands(segment, block, limits_, model_);
-    segment.marks.push_back({segment.length, segment.length, number, block.line});
-    sink_(std::move(segment));
-  }
 }
 
 void PathBuilder::finish() { run_.finish(); }

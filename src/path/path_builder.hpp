@@ -28,7 +28,6 @@ class PathBuilder : public Builder {
 
  private:
   bool is_short(const gcode::Block& block) const;
-  void push_nurbs(const gcode::Block& block, std::int64_t number);
   bool continues_run(const gcode::Block& block) const;
 
   PathSettings settings_;
@@ -43,5 +42,11 @@ class PathBuilder : public Builder {
 /// Line, arc or rest of a single block; not for a NURBS.
 Segment make_segment(const gcode::Block& block, std::int64_t number, const Limits& limits,
                      const PlanningModel& model);
+
+/// Segments of a NURBS: pieces of at most `most_spans` spans, cut where the curvature jumps or the
+/// tangent turns.
+std::vector<Segment> make_nurbs_segments(const gcode::Block& block, std::int64_t number,
+                                         int most_spans, const Limits& limits,
+                                         const PlanningModel& model);
 
 }  // namespace twin::path

@@ -29,6 +29,8 @@ double length_to(const gcode::ArcGeometry& g, double f) noexcept {
   return 0.5 * f * sum;
 }
 
+}  // namespace
+
 double fraction_at(const Arc& arc, double s) noexcept {
   double f = s / arc.length;
   if (arc.geometry.radius_change != 0.0) {
@@ -38,8 +40,6 @@ double fraction_at(const Arc& arc, double s) noexcept {
   }
   return std::clamp(f, 0.0, 1.0);
 }
-
-}  // namespace
 
 PathPoint point_at(const Line& line, double s) noexcept {
   return {line.start + s * line.direction, line.direction, Vec3::Zero()};

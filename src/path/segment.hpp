@@ -67,6 +67,9 @@ PathPoint point_at(const Line& line, double s) noexcept;
 /// Place at arc length s in [0, length] of an arc.
 PathPoint point_at(const Arc& arc, double s) noexcept;
 
+/// Fraction of the sweep at arc length s in [0, length] of an arc.
+double fraction_at(const Arc& arc, double s) noexcept;
+
 /// Place at which a curve has these derivatives with respect to its parameter.
 PathPoint point_from(const nurbs::Derivatives& at) noexcept;
 

@@ -1,5 +1,8 @@
 #include "runtime/planning.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "feedrate/look_ahead.hpp"
@@ -8,8 +11,21 @@
 namespace twin::runtime {
 namespace {
 
-void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
+/// Non-empty spans of a curve.
+std::int64_t count_spans(const nurbs::Curve& curve) {
+  const std::vector<double>& knots = curve.knots();
+  return std::transform_reduce(knots.begin() + 1, knots.end(), knots.begin(), std::int64_t{0},
+                               std::plus<>(),
+                               [](double to, double from) { return from < to ? 1 : 0; });
+}
+
+/// @param last_block  of those counted as short; one that is shared by two curves counts once
+void count(const feedrate::PlannedSegment& planned, PlanFigures& figures,
+           std::int64_t& last_block) {
   const path::Segment& segment = planned.segment;
+  if (figures.certified_deviation) {
+    figures.certified_deviation = std::max(*figures.certified_deviation, segment.deviation);
+  }
   for (const feedrate::Phase& phase : planned.phases) {
     figures.time += phase.duration;
   }
@@ -24,8 +40,12 @@ void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
       return;
     }
     ++figures.fitted_curves;
+    figures.spans += count_spans(curve->curve);
     for (const path::BlockMark& mark : segment.marks) {
-      figures.short_length.add(mark.length);
+      if (mark.block > last_block) {
+        figures.short_length.add(mark.length);
+        last_block = mark.block;
+      }
     }
   }
 }
@@ -35,10 +55,14 @@ void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
   PlanFigures figures;
+  if (machine.path.planner == Planner::kCertified) {
+    figures.certified_deviation = 0.0;
+  }
+  std::int64_t last_block = -1;
   bool goes_on = true;
   feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path, machine.period,
                                  [&](feedrate::PlannedSegment&& planned) {
-                                   count(planned, figures);
+                                   count(planned, figures, last_block);
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
   const auto builder =
@@ -68,6 +92,9 @@ void put_into(metrics::Summary& summary, const PlanFigures& figures) {
   summary.blocks = {figures.blocks, lengths.count(), lengths.min(), lengths.mean(), lengths.max()};
   summary.segments = {figures.curves + figures.lines + figures.arcs, figures.curves, figures.lines,
                       figures.arcs};
+  if (figures.certified_deviation) {
+    summary.certified = {*figures.certified_deviation, figures.spans};
+  }
   summary.compression_factor =
       figures.fitted_curves > 0
           ? static_cast<double>(lengths.count()) / static_cast<double>(figures.fitted_curves)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
@@ -17,10 +18,13 @@ struct PlanFigures {
   metrics::Running short_length;  ///< lengths of the continuous short blocks, fitted by curves [mm]
   std::int64_t curves = 0;        ///< fitted, and NURBS of the program or parts of them
   std::int64_t fitted_curves = 0;  ///< of them, through continuous short blocks
+  std::int64_t spans = 0;          ///< of the fitted curves
   std::int64_t lines = 0;
   std::int64_t arcs = 0;
-  double path_length = 0.0;    ///< along the segments [mm]
-  double time = 0.0;           ///< planned time [s]
+  double path_length = 0.0;                   ///< along the segments [mm]
+  double time = 0.0;                          ///< planned time [s]
+  std::optional<double> certified_deviation;  ///< largest of the segments' bounds, where the
+                                              ///< planner gives them [mm]
   std::int64_t fallbacks = 0;  ///< plans that could not be made and followed an earlier one
 };
 

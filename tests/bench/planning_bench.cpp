@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "gcode/reader.hpp"
+#include "path/builder.hpp"
 #include "runtime/planning.hpp"
 
 /// Read to planned segment, on one core; the reader alone is the reference beside it.
@@ -62,6 +64,28 @@ void read_to_planned(benchmark::State& state, double block_length, CurveKind cur
   count_blocks(state);
 }
 
+/// Blocks that were read before to segments: the path builder alone.
+void blocks_to_path(benchmark::State& state, double block_length, Planner planner) {
+  std::vector<gcode::Block> blocks;
+  gcode::Reader reader =
+      gcode::Reader::from_text(wavy_program(state.range(0), block_length), "bench.nc");
+  for (auto block = reader.next(); block && block->has_value(); block = reader.next()) {
+    blocks.push_back(**block);
+  }
+  config::MachineFile machine;
+  machine.path.planner = planner;
+  for (auto _ : state) {
+    const auto builder =
+        path::make_builder(machine.path, machine.planning, machine.limits,
+                           [](path::Segment&& segment) { benchmark::DoNotOptimize(segment); });
+    for (const gcode::Block& block : blocks) {
+      builder->push(block);
+    }
+    builder->finish();
+  }
+  count_blocks(state);
+}
+
 BENCHMARK(read_only)->Arg(100000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_to_planned, curves_0_26_mm, 0.26, CurveKind::kNurbs)
     ->RangeMultiplier(10)
@@ -71,6 +95,16 @@ BENCHMARK_CAPTURE(read_to_planned, curves_0_02_mm, 0.02, CurveKind::kNurbs)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_to_planned, lines_0_26_mm, 0.26, CurveKind::kNone)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(blocks_to_path, paper_0_26_mm, 0.26, Planner::kPaper)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(blocks_to_path, certified_0_26_mm, 0.26, Planner::kCertified)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(blocks_to_path, certified_0_02_mm, 0.02, Planner::kCertified)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 

@@ -1,0 +1,144 @@
+#include "path/segment_writer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "path/curve_segment.hpp"
+#include "smoothing/piecewise.hpp"
+
+namespace twin::path {
+namespace {
+
+constexpr std::size_t kMostSpans = 32;                     // of a curve
+constexpr double kSame = 0.5 * smoothing::kShortestPiece;  // places this near are one [mm]
+constexpr double kStraight = 1e-6;                         // turn that is none [rad]
+
+}  // namespace
+
+/// Makes the block that goes on beyond s the current one; a curve ends where the demands change.
+void SegmentWriter::advance_to(double s) {
+  at_ = std::max(at_, blocks_.begin_index());
+  while (at_ + 1 < blocks_.end_index() && blocks_[at_].end <= s + kSame) {
+    if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
+      flush();
+    }
+    ++at_;
+  }
+}
+
+void SegmentWriter::cubic(const nurbs::SpanCubic& piece, double deviation) {
+  nurbs::SpanCubic rest = piece;
+  advance_to(rest.begin);
+  while (blocks_[at_].end < rest.end - kSame && at_ + 1 < blocks_.end_index()) {
+    const double end = blocks_[at_].end;
+    if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
+      append(smoothing::part_of(rest, rest.begin, end), deviation);
+      rest = smoothing::part_of(rest, end, rest.end);
+    }
+    advance_to(end);
+  }
+  append(rest, deviation);
+}
+
+void SegmentWriter::append(const nurbs::SpanCubic& piece, double deviation) {
+  pieces_.push_back(piece);
+  deviation_ = std::max(deviation_, deviation);
+  if (pieces_.size() == kMostSpans) {
+    flush();
+  }
+}
+
+/// The curve of the pieces so far.
+void SegmentWriter::flush() {
+  if (pieces_.empty()) {
+    return;
+  }
+  const double begin = pieces_.front().begin;
+  const double end = pieces_.back().end;
+  FittedCurve fitted;
+  fitted.curve = smoothing::curve_from_pieces(pieces_);
+  measure(fitted);
+  Segment segment = make_curve_segment(std::move(fitted));
+  segment.deviation = deviation_;
+  const auto& curve = std::get<FittedCurve>(segment.geometry);
+  put_marks(segment, end, [&](double s) { return curve.arc_length.s_at(curve.curve, s - begin); });
+  pieces_.clear();
+  deviation_ = 0.0;
+  put(std::move(segment));
+}
+
+void SegmentWriter::set_demands(Segment& segment) const {
+  const BlockDemand& block = blocks_.front();
+  segment.feedrate = block.feedrate;
+  segment.corner_error = block.corner_error;
+  segment.is_rapid = block.is_rapid;
+}
+
+/// Marks of the blocks that end on the segment, and of the one that goes on.
+template <class PlaceOf>
+void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place_of) {
+  set_demands(segment);
+  while (!blocks_.is_empty()) {
+    const BlockDemand& block = blocks_.front();
+    const bool is_inside = block.end < end - kSame;
+    const double s = is_inside ? std::min(place_of(block.end), segment.length) : segment.length;
+    segment.marks.push_back({s, block.length, block.number, block.line});
+    const bool goes_on = block.end > end + kSame;
+    if (!goes_on) {
+      blocks_.drop_before(blocks_.begin_index() + 1);
+    }
+    if (!is_inside) {
+      break;
+    }
+  }
+}
+
+void SegmentWriter::exact(Segment&& segment, double begin, double end) {
+  advance_to(begin);
+  flush();
+  put_marks(segment, end, [&](double s) { return s - begin; });
+  put(std::move(segment));
+}
+
+void SegmentWriter::line(const Line& line, double begin, double end) {
+  Segment segment;
+  segment.length = end - begin;
+  segment.begin = point_at(line, 0.0);
+  segment.end = point_at(line, segment.length);
+  segment.geometry = line;
+  exact(std::move(segment), begin, end);
+}
+
+void SegmentWriter::arc(const Arc& arc, double begin, double end) {
+  Segment segment;
+  segment.length = arc.length;
+  segment.begin = point_at(arc, 0.0);
+  segment.end = point_at(arc, arc.length);
+  segment.geometry = arc;
+  exact(std::move(segment), begin, end);
+}
+
+void SegmentWriter::whole(Segment&& segment) {
+  flush();
+  put(std::move(segment));
+}
+
+/// One segment is kept back until it is known whether the path turns at its end.
+void SegmentWriter::put(Segment&& segment) {
+  if (last_) {
+    const bool turns = (last_->end.tangent - segment.begin.tangent).norm() > kStraight;
+    last_->stops_at_end = last_->stops_at_end || (turns && segment.length > 0.0);
+    sink_(std::move(*last_));
+  }
+  last_ = std::move(segment);
+}
+
+void SegmentWriter::finish() {
+  flush();
+  if (last_) {
+    sink_(std::move(*last_));
+    last_.reset();
+  }
+}
+
+}  // namespace twin::path

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nurbs/span_cubic.hpp"
+#include "path/builder.hpp"
+#include "path/segment.hpp"
+#include "smoothing/sliding_vector.hpp"
+
+namespace twin::path {
+
+/// What a block asks of the segments it becomes, and where it ends on the base path.
+struct BlockDemand {
+  double end = 0.0;           ///< base path length at its end [mm]
+  double length = 0.0;        ///< as programmed [mm]
+  std::int64_t number = 0;    ///< counted from 0
+  std::int64_t line = 0;      ///< NC line
+  double feedrate = 0.0;      ///< [mm/s]
+  double corner_error = 0.0;  ///< [mm]
+  bool is_rapid = false;
+
+  bool has_same_demands(const BlockDemand& other) const noexcept {
+    return feedrate == other.feedrate && corner_error == other.corner_error &&
+           is_rapid == other.is_rapid;
+  }
+};
+
+/// Makes segments of a path that comes as cubic pieces, lines and arcs over one parameter, the base
+/// path length; the blocks are known beforehand.
+///
+/// Pieces that follow each other become curves of at most kMostSpans spans; a curve ends where the
+/// demands change. A block that is shared by several segments has a mark on each. Where the tangent
+/// turns from one segment to the next, the path comes to rest.
+class SegmentWriter {
+ public:
+  explicit SegmentWriter(Builder::Sink sink) : sink_(std::move(sink)) {}
+
+  void add_block(const BlockDemand& block) { blocks_.push_back(block); }
+
+  /// The next piece.
+  /// @param deviation  bound of its distance from the programmed path, both ways [mm]
+  void cubic(const nurbs::SpanCubic& piece, double deviation);
+  /// A straight piece from base path length `begin` to `end`.
+  void line(const Line& line, double begin, double end);
+  void arc(const Arc& arc, double begin, double end);
+  /// A segment that is complete, with marks of its own.
+  void whole(Segment&& segment);
+  /// The path is not smooth here.
+  void end_curve() { flush(); }
+  /// Everything so far comes out.
+  void finish();
+
+ private:
+  void flush();
+  void advance_to(double s);
+  void append(const nurbs::SpanCubic& piece, double deviation);
+  void exact(Segment&& segment, double begin, double end);
+  void set_demands(Segment& segment) const;
+  template <class PlaceOf>
+  void put_marks(Segment& segment, double end, const PlaceOf& place_of);
+  void put(Segment&& segment);
+
+  Builder::Sink sink_;
+  smoothing::SlidingVector<BlockDemand> blocks_;  // not yet over
+  std::size_t at_ = 0;                            // block of the latest piece
+  std::vector<nurbs::SpanCubic> pieces_;          // of the curve under way
+  double deviation_ = 0.0;
+  std::optional<Segment> last_;
+};
+
+}  // namespace twin::path

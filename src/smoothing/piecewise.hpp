@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "nurbs/curve.hpp"
+#include "nurbs/span_cubic.hpp"
+
+namespace twin::smoothing {
+
+/// Places nearer to each other than this are one: no piece is shorter [mm].
+inline constexpr double kShortestPiece = 1e-6;
+
+/// The same polynomial between other ends, about the first of them.
+nurbs::SpanCubic part_of(const nurbs::SpanCubic& cubic, double begin, double end) noexcept;
+
+/// Divides the piece that holds s in two, unless one of its ends is s, all but.
+void split_at(double s, std::vector<nurbs::SpanCubic>& pieces);
+
+/// Pieces that follow each other with two continuous derivatives as one clamped B-spline curve
+/// whose parameter begins at 0.
+///
+/// With the blossom F_s of the polynomial of span s, control point i is F_s(u_{i+1}, u_{i+2},
+/// u_{i+3}) for any of the spans s = i-3..i between its knots; of the polynomial
+///   c_0 + c_1 t + c_2 t^2 + c_3 t^3   the blossom is
+///   c_0 + c_1 (a + b + c) / 3 + c_2 (a b + b c + c a) / 3 + c_3 a b c.
+/// The widest of the four spans is taken, for its coefficients are the surest.
+nurbs::Curve curve_from_pieces(std::span<const nurbs::SpanCubic> pieces);
+
+}  // namespace twin::smoothing
