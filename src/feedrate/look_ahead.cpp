@@ -15,26 +15,66 @@ constexpr double kPlaceRounding = 1e-9;  // [mm]
 }  // namespace
 
 LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const PathSettings& path,
-                     double period, Sink sink)
+                     double period, Sink sink, Start start, double override_scale)
     : limits_(limits),
       rules_(limits, model, path, period),
       look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
       sink_(std::move(sink)),
+      start_of_plan_(start),
+      override_scale_(override_scale),
       ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       envelope_(ramp_),
-      junctions_(limits, model, period) {}
+      junctions_(limits, model, period),
+      start_{start.s, start.v} {}
 
 void LookAhead::push(path::Segment&& segment) {
   if (!window_.empty()) {
     junctions_.append(window_.back(), segment, length_, zones_);
   }
-  append_segment_limits(segment, length_, rules_, zones_);
+  append_limits(segment);
   length_ += segment.length;
   window_.push_back(std::move(segment));
   if (window_.size() >= look_ahead_) {
     plan(false);
   }
+}
+
+double LookAhead::asked_feedrate(const path::Segment& segment) const {
+  if (override_scale_ == 1.0) {
+    return segment.feedrate;
+  }
+  const double scale = segment.is_rapid ? std::min(override_scale_, 1.0) : override_scale_;
+  return std::min(scale * segment.feedrate, std::max(limits_.feedrate, segment.feedrate));
+}
+
+/// Appends the limits of a segment at the window's end. As far as the way from the start's feedrate
+/// down to the one asked for goes, the start's feedrate is asked for.
+void LookAhead::append_limits(const path::Segment& segment) {
+  const double asked = asked_feedrate(segment);
+  const double down =
+      asked < start_of_plan_.v
+          ? start_of_plan_.s + ramp_distance(start_of_plan_.v, asked, ramp_) - length_
+          : 0.0;
+  if (down > 0.0 && segment.length > 0.0) {
+    const double border = length_ + std::min(down, segment.length);
+    const std::size_t first = zones_.size();
+    append_segment_limits(segment, length_, start_of_plan_.v, rules_, zones_);
+    std::erase_if(zones_, [&](const LimitZone& zone) { return zone.begin >= border; });
+    asked_.clear();
+    append_segment_limits(segment, length_, asked, rules_, asked_);
+    if (zones_.size() > first) {
+      zones_.back().end = std::min(zones_.back().end, border);
+    }
+    for (LimitZone zone : asked_) {
+      if (zone.end > border) {
+        zone.begin = std::max(zone.begin, border);
+        zones_.push_back(zone);
+      }
+    }
+    return;
+  }
+  append_segment_limits(segment, length_, asked, rules_, zones_);
 }
 
 void LookAhead::finish() {
@@ -54,6 +94,16 @@ void LookAhead::plan(bool is_last) {
     return;
   }
   while (!envelope_.plan(zones_until(last), start_, {last, 0.0})) {
+    if (plan_.empty() && start_.v > 0.0) {
+      if (!is_last) {
+        return;  // the window is too short to come to rest in
+      }
+      ++fallbacks_;
+      if (!raise_limits(last)) {
+        start_.v = 0.0;
+      }
+      continue;
+    }
     ++fallbacks_;
     if (start_.v == 0.0) {
       plan_evenly(last);
@@ -89,6 +139,21 @@ void LookAhead::plan_evenly(double last) {
     zone.limit = std::min(zone.limit, lowest);
   }
   envelope_.plan(even, start_, {last, 0.0});
+}
+
+/// Raises the limits so far that a start which is too fast for them can come down; false where
+/// they have been raised already.
+bool LookAhead::raise_limits(double last) {
+  bool is_raised = false;
+  const double from = start_.s + kPlaceRounding;
+  const double to = std::min(last, start_.s + longest_descent(start_.v, start_.v, ramp_));
+  for (LimitZone& zone : zones_) {
+    if (zone.end > from && zone.begin < to && zone.limit > 0.0 && zone.limit < start_.v) {
+      zone.limit = start_.v;
+      is_raised = true;
+    }
+  }
+  return is_raised;
 }
 
 /// How far a knot may be moved on and still leave room to come down, with no acceleration, to any
@@ -213,6 +278,7 @@ void LookAhead::forget(double begin, std::size_t phases, std::size_t zones) {
     hump.b.s -= begin;
   }
   start_.s -= begin;
+  start_of_plan_.s -= begin;
   length_ -= begin;
 }
 

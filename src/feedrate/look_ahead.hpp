@@ -34,10 +34,21 @@ class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;
 
-  /// @param path    path.look_ahead segments, at least 2, are in the window
-  /// @param period  interpolation period, for the feedrates of corners and chords [s]
+  /// Where a plan starts: with no acceleration at a place of the first segment.
+  struct Start {
+    double s;  ///< from the first segment's start [mm]
+    double v;  ///< [mm/s]
+  };
+
+  /// A start that is faster than the feedrate asked for comes down to it as soon as it can; the
+  /// limits of the path itself are kept all the same. The phases of the first segment begin at its
+  /// place.
+  ///
+  /// @param path            path.look_ahead segments, at least 2, are in the window
+  /// @param period          interpolation period, for the feedrates of corners and chords [s]
+  /// @param override_scale  of programmed feedrates, > 0; rapids take no more than 1 of it [-]
   LookAhead(const Limits& limits, const PlanningModel& model, const PathSettings& path,
-            double period, Sink sink);
+            double period, Sink sink, Start start = {0.0, 0.0}, double override_scale = 1.0);
 
   void push(path::Segment&& segment);
   /// No more segments follow: the path ends at rest.
@@ -47,10 +58,13 @@ class LookAhead {
   std::int64_t fallbacks() const noexcept { return fallbacks_; }
 
  private:
+  double asked_feedrate(const path::Segment& segment) const;
+  void append_limits(const path::Segment& segment);
   double horizon(bool is_last) const;
   void plan(bool is_last);
   std::span<const LimitZone> zones_until(double last) const;
   void plan_evenly(double last);
+  bool raise_limits(double last);
   double room_after(const Knot& knot, double last) const;
   Knot commit_knot(double last, bool is_last) const;
   void commit(Knot knot);
@@ -63,12 +77,15 @@ class LookAhead {
   std::size_t look_ahead_;
   double period_;
   Sink sink_;
+  Start start_of_plan_;
+  double override_scale_;
   RampLimits ramp_;
   Envelope envelope_;
   JunctionLimits junctions_;
 
   std::deque<path::Segment> window_;  // not yet handed on; window_[0] begins at s = 0
   std::vector<LimitZone> zones_;      // of the window
+  std::vector<LimitZone> asked_;      // of one segment, kept for its memory
   std::vector<Hump> plan_;            // last feasible plan from start_ to rest
   std::vector<Phase> phases_;         // settled and not yet handed on
   Knot start_;                        // where the next plan starts
