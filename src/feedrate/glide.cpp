@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kPlaceRounding = 1e-9;       // [mm]
 constexpr double kSameFeedrate = 1.0 + 1e-9;  // ratio
+const Ascent kNoAscent;
 constexpr std::size_t kStepsPerZone = 8;      // after which there is no plan
 
 /// Whether a phase that rises passes a place faster than a limit.
@@ -103,26 +104,20 @@ bool Glide::settle(Piece piece) {
     phases_.push_back({length / piece.a.v, piece.a.s, piece.a.v, 0.0, 0.0});
     return true;
   }
-  const double v_least = std::max(piece.a.v, piece.b.v);
+  if (length <= kPlaceRounding) {
+    give_back(piece);
+    return std::abs(piece.a.v - piece.b.v) <= 1e-6 * (1.0 + piece.a.v);
+  }
   for (std::size_t i = 0; i <= kStepsPerZone * (piece.last - piece.first) + 8; ++i) {
-    if (length <= kPlaceRounding) {
-      give_back(piece);
-      return std::abs(piece.a.v - piece.b.v) <= 1e-6 * v_least + 1e-6;
-    }
-    Summit summit;
-    if (!join(*piece.up, *piece.down, length, v_least, std::max(piece.cap, v_least), summit)) {
-      return false;
-    }
-    summit_.clear();
-    descent_ = append_phases(summit, *piece.up, *piece.down, piece.a.s, piece.ramp.jerk, summit_);
-    turn_ = descent_ < summit_.size() ? summit_[descent_].s : piece.b.s;
-    peak_ = summit.v;
+    const bool is_joined = climb(piece);
     Violation worst{};
     if (!find_violation(piece, worst)) {
-      parts_.push_back({phases_.size(), phases_.size() + descent_});
-      phases_.insert(phases_.end(), summit_.begin(), summit_.end());
-      give_back(piece);
-      return true;
+      if (is_joined) {
+        parts_.push_back({phases_.size(), phases_.size() + descent_});
+        phases_.insert(phases_.end(), summit_.begin(), summit_.end());
+        give_back(piece);
+      }
+      return is_joined;
     }
     bool is_split = false;
     if (!resolve(piece, worst, is_split)) {
@@ -133,6 +128,27 @@ bool Glide::settle(Piece piece) {
     }
   }
   return false;
+}
+
+/// Finds the summit of a piece. Where its start is too fast for that, the descent to its end is
+/// taken alone: a zone that it does not keep may be a valley that can be reached.
+bool Glide::climb(const Piece& piece) {
+  const double v_least = std::max(piece.a.v, piece.b.v);
+  Summit summit;
+  const bool is_joined = join(*piece.up, *piece.down, piece.b.s - piece.a.s, v_least,
+                              std::max(piece.cap, v_least), summit);
+  if (!is_joined) {
+    summit.v = std::min(piece.a.v, piece.down->top());
+    summit.up = {0, 0.0, {0.0, summit.v, 0.0}, 0.0};
+    summit.down = piece.down->exit_at(summit.v);
+    summit.length = summit.down.distance;
+  }
+  summit_.clear();
+  descent_ = append_phases(summit, is_joined ? *piece.up : kNoAscent, *piece.down,
+                           piece.b.s - summit.length, piece.ramp.jerk, summit_);
+  turn_ = descent_ < summit_.size() ? summit_[descent_].s : piece.b.s;
+  peak_ = summit.v;
+  return is_joined;
 }
 
 /// Whether the summit at hand passes a place faster than a limit.
@@ -183,21 +199,6 @@ bool Glide::find_violation(const Piece& piece, Violation& worst) const {
   return is_found;
 }
 
-/// The ascent backward from a knot that is slower than the piece's start, if it can be reached.
-Ascent* Glide::descent_to(const Piece& piece, const Knot& in, std::size_t zone) {
-  Ascent* descent = ascent_from(in, Sense::kBackward, zone - 1, piece.ramp);
-  const double room = in.s - piece.a.s;
-  while (!descent->is_complete() && descent->top() < piece.a.v && descent->reached() < room) {
-    descent->extend();
-  }
-  if (descent->top() >= piece.a.v &&
-      descent->exit_at(piece.a.v).distance <= room + kPlaceRounding) {
-    return descent;
-  }
-  free_.push_back(descent);
-  return nullptr;
-}
-
 bool Glide::resolve(Piece& piece, const Violation& violation, bool& is_split) {
   const LimitZone& zone = zones_[violation.zone];
   const double v = zone.limit;
@@ -206,18 +207,15 @@ bool Glide::resolve(Piece& piece, const Violation& violation, bool& is_split) {
   bool is_on_way_up = violation.leaves;
   bool is_on_way_down = violation.enters;
   if (violation.enters && violation.leaves) {
-    Ascent* descent = v < piece.a.v ? descent_to(piece, {zone.begin, v}, violation.zone) : nullptr;
-    const bool has_in = descent != nullptr || (v >= piece.a.v && piece.up->exit_at(v).distance <=
-                                                                     room_up + kPlaceRounding);
+    const double way_in = v < piece.a.v ? ramp_distance(piece.a.v, v, piece.ramp)
+                                        : piece.up->exit_at(v).distance;
+    const bool has_in = way_in <= room_up + kPlaceRounding;
     const bool has_out =
         v >= piece.b.v && piece.down->exit_at(v).distance <= room_down + kPlaceRounding;
     if (has_in && has_out) {
-      split(piece, violation.zone, descent);
+      split(piece, violation.zone);
       is_split = true;
       return true;
-    }
-    if (descent != nullptr) {
-      free_.push_back(descent);
     }
     is_on_way_up = !has_in && (has_out || zone.end <= turn_);
     is_on_way_down = !has_out && (has_in || zone.begin >= turn_);
@@ -234,28 +232,22 @@ bool Glide::resolve(Piece& piece, const Violation& violation, bool& is_split) {
   return true;
 }
 
-void Glide::split(Piece& piece, std::size_t index, Ascent* descent) {
+void Glide::split(Piece& piece, std::size_t index) {
   const LimitZone& zone = zones_[index];
   const bool is_place = zone.end - zone.begin <= kPlaceRounding;
   const Knot in{zone.begin, zone.limit};
   const Knot out{is_place ? zone.begin : zone.end, zone.limit};
-  Piece left{piece.a, in, piece.up, descent, piece.first, index, piece.ramp};
+  Piece left{piece.a, in, piece.up, nullptr, piece.first, index, piece.ramp};
   Piece right{out, piece.b, nullptr, piece.down, index + 1, piece.last, piece.ramp};
   left.cap = right.cap = piece.cap;
   if (has_zone_ramps_) {
     left.ramp = ramp_of(left.first, left.last);
     right.ramp = ramp_of(right.first, right.last);
     give_back(piece);
-    if (descent != nullptr) {
-      free_.push_back(descent);
-      left.down = nullptr;
-    }
     left.up = ascent_from(piece.a, Sense::kForward, left.first, left.ramp);
     right.down = ascent_from(piece.b, Sense::kBackward, right.last - 1, right.ramp);
   }
-  if (left.down == nullptr) {
-    left.down = ascent_from(in, Sense::kBackward, index - 1, left.ramp);
-  }
+  left.down = ascent_from(in, Sense::kBackward, index - 1, left.ramp);
   right.up = ascent_from(out, Sense::kForward, index + 1, right.ramp);
   // Pieces are pushed last first, so that they are settled in path order.
   pending_.push_back(right);

@@ -70,11 +70,11 @@ class Glide {
   void give_back(Piece& piece);
   RampLimits ramp_of(std::size_t first, std::size_t last) const;
   bool settle(Piece piece);
+  bool climb(const Piece& piece);
   bool find_violation(const Piece& piece, Violation& worst) const;
   bool is_faster(double s, double limit, std::size_t& phase) const;
   bool resolve(Piece& piece, const Violation& violation, bool& is_split);
-  Ascent* descent_to(const Piece& piece, const Knot& in, std::size_t zone);
-  void split(Piece& piece, std::size_t zone, Ascent* descent);
+  void split(Piece& piece, std::size_t zone);
 
   std::span<const LimitZone> zones_;
   RampLimits ramp_{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "feedrate/envelope.hpp"
 
@@ -16,7 +17,9 @@ bool is_level(const Phase& phase) { return phase.a == 0.0; }
 
 void GlidePlanner::advance(Window& window, double last, bool is_last) {
   least_ = ramp_;
+  fastest_ = 0.0;
   for (const LimitZone& zone : window.zones) {
+    fastest_ = std::max(fastest_, zone.limit);
     least_.acceleration = std::min(least_.acceleration, zone.acceleration);
     least_.jerk = std::min(least_.jerk, zone.jerk);
   }
@@ -69,26 +72,39 @@ bool GlidePlanner::fall_back(Window& window, double last, bool is_last) {
   return true;
 }
 
+/// Distance of the descent, under the limits before it, to a zone from a feedrate, or more than
+/// `most` [mm].
+double GlidePlanner::descent_to(const Window& window, std::size_t zone, double v, double most) {
+  const LimitZone& valley = window.zones[zone];
+  probe_.start(window.zones, zone - 1, {valley.begin, valley.limit}, Sense::kBackward, least_,
+               std::max(fastest_, v));
+  while (!probe_.is_complete() && probe_.top() < v && probe_.reached() <= most) {
+    probe_.extend();
+  }
+  return probe_.top() < v ? std::numeric_limits<double>::infinity() : probe_.exit_at(v).distance;
+}
+
 /// How far a hold may go on and still leave room to come down, with no acceleration, to any valley
 /// of the limits before `last`, and to any feedrate at all at `last`; negative where it is too far
 /// already.
-double GlidePlanner::room_after(const Window& window, const Knot& knot, double last) const {
-  const double longest = longest_descent(knot.v, knot.v, least_);
-  double room = last - knot.s - longest;
-  const auto end = window.zones.end();
-  auto zone = std::partition_point(window.zones.begin(), end, [&](const LimitZone& before) {
-    return before.end <= knot.s + kPlaceRounding;
+double GlidePlanner::room_after(const Window& window, const Knot& knot, double last) {
+  double room = last - knot.s - longest_descent(knot.v, knot.v, least_);
+  const auto& zones = window.zones;
+  const auto from = std::partition_point(zones.begin(), zones.end(), [&](const LimitZone& zone) {
+    return zone.end <= knot.s + kPlaceRounding;
   });
-  for (; zone != end && zone->begin < knot.s + longest + room; ++zone) {
-    const bool is_valley = std::next(zone) == end || std::next(zone)->limit > zone->limit;
-    if (is_valley && zone->limit < knot.v) {
-      room = std::min(room, zone->begin - knot.s - longest_descent(knot.v, zone->limit, least_));
+  for (auto i = static_cast<std::size_t>(from - zones.begin());
+       room >= 0.0 && i < zones.size() && zones[i].begin < last; ++i) {
+    const bool is_valley = i + 1 == zones.size() || zones[i + 1].limit > zones[i].limit;
+    if (is_valley && zones[i].limit < knot.v) {
+      const double most = zones[i].begin - knot.s;
+      room = std::min(room, most - descent_to(window, i, knot.v, most));
     }
   }
   return room;
 }
 
-GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double last) const {
+GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double last) {
   const Glide::Part& part = glide_.parts().back();
   for (std::size_t i = part.descent + 1; i-- > part.first;) {
     if (i >= plan_.size() || !is_level(plan_[i])) {

@@ -32,14 +32,17 @@ class GlidePlanner final : public WindowPlanner {
 
   bool plan(const Window& window, double last);
   bool fall_back(Window& window, double last, bool is_last);
-  double room_after(const Window& window, const Knot& knot, double last) const;
-  Cut last_final(const Window& window, double last) const;
+  double descent_to(const Window& window, std::size_t zone, double v, double most);
+  double room_after(const Window& window, const Knot& knot, double last);
+  Cut last_final(const Window& window, double last);
   Cut next_level() const;
   void commit(Window& window, const Cut& cut);
 
   RampLimits ramp_;
   RampLimits least_{};  // of all zones of the window
+  double fastest_ = 0.0;  // limit of all of them [mm/s]
   Glide glide_;
+  Ascent probe_;
   std::vector<Phase> plan_;  // last plan from the start to rest
 };
 

@@ -35,7 +35,8 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const Pat
       sink_(std::move(sink)),
       start_of_plan_(start),
       override_scale_(override_scale),
-      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
+      ramp_{limits.acceleration, limits.jerk,
+            is_certified_ ? AccelerationProfile::kTrapezoidal : model.acceleration_profile},
       junctions_(limits, model, period) {
   work_.start = {start.s, start.v};
   if (is_certified_) {
