@@ -70,22 +70,22 @@ bool is_tilted(const path::Arc& arc) {
 
 }  // namespace
 
-void append_segment_limits(const path::Segment& segment, double s0, const FeedrateRules& rules,
-                           std::vector<LimitZone>& zones) {
+void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
+                           const FeedrateRules& rules, std::vector<LimitZone>& zones) {
   if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
-    append_curve_limits(*curve, segment.feedrate, s0, rules, zones);
+    append_curve_limits(*curve, feedrate, s0, rules, zones);
     return;
   }
   const auto* arc = std::get_if<path::Arc>(&segment.geometry);
   if (arc != nullptr && rules.needs_turning() && is_tilted(*arc)) {
-    append_tilted_arc_limits(*arc, segment.feedrate, s0, rules, zones);
+    append_tilted_arc_limits(*arc, feedrate, s0, rules, zones);
     return;
   }
   const double begin = segment.begin.curvature.norm();
   const double end = segment.end.curvature.norm();
   const Place at = rules.needs_turning() ? place_from(begin < end ? segment.end : segment.begin)
                                          : Place{std::max(begin, end)};
-  zones.push_back({s0, s0 + segment.length, rules.limit_at(at, segment.feedrate, false)});
+  zones.push_back({s0, s0 + segment.length, rules.limit_at(at, feedrate, false)});
 }
 
 double curvature_near_end(const path::Segment& segment, bool at_end, double distance) {

@@ -15,9 +15,10 @@ namespace twin::feedrate {
 /// whose limits differ by less than 1 % become one, with the lower limit. So has an arc that is not
 /// in the XY plane, where the rule depends on the heading.
 ///
-/// @param s0  place of the segment's start [mm]
-void append_segment_limits(const path::Segment& segment, double s0, const FeedrateRules& rules,
-                           std::vector<LimitZone>& zones);
+/// @param s0        place of the segment's start [mm]
+/// @param feedrate  asked for on it, its programmed feedrate unless that is overridden [mm/s]
+void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
+                           const FeedrateRules& rules, std::vector<LimitZone>& zones);
 
 /// Largest curvature of a segment near one of its ends, within a distance [1/mm].
 double curvature_near_end(const path::Segment& segment, bool at_end, double distance);

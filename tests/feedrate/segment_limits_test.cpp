@@ -16,7 +16,7 @@ const PlanningModel kModel;
 
 std::vector<LimitZone> zones_of(const path::Segment& segment, double s0 = 0.0) {
   std::vector<LimitZone> zones;
-  append_segment_limits(segment, s0, {kLimits, kModel, {}, 1e-3}, zones);
+  append_segment_limits(segment, s0, segment.feedrate, {kLimits, kModel, {}, 1e-3}, zones);
   return zones;
 }
 
