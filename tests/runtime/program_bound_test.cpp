@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
 
@@ -13,8 +15,8 @@ namespace {
 class ProgramBound : public testing::TestWithParam<Planner> {};
 
 TEST_P(ProgramBound, NoPlanIsFasterThanItsBound) {
-  for (const char* name :
-       {"oxalis", "dolphin", "butterfly", "butterfly_nurbs", "square", "mixed", "circle"}) {
+  for (const char* name : {"oxalis", "dolphin", "butterfly", "butterfly_nurbs", "square", "mixed",
+                           "circle", "zigzag", "star", "gear"}) {
     const auto file = fmt::format("{}/nc_programs/{}.nc", TWIN_SOURCE_DIR, name);
     for (const double feedrate : {50.0, 200.0}) {
       config::MachineFile machine;
@@ -25,7 +27,8 @@ TEST_P(ProgramBound, NoPlanIsFasterThanItsBound) {
       const auto bound = time_bound(file, machine, feedrate);
       ASSERT_TRUE(plan && bound);
       EXPECT_LE(*bound, plan->time * (1.0 + 1e-9)) << name;
-      EXPECT_GT(*bound, plan->path_length / feedrate) << name;
+      EXPECT_GT(*bound, plan->path_length / std::max(feedrate, machine.limits.rapid_feedrate))
+          << name;
     }
   }
 }
