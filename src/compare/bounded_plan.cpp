@@ -12,7 +12,6 @@ namespace twin::compare {
 namespace {
 
 constexpr int kStepsOfPhase = 8;
-constexpr std::size_t kMostRows = 6000;  // of a picture's curve
 
 void add_row(trace::Table& table, double s, double v, double t) {
   table.values.insert(table.values.end(), {s, v, t});
@@ -34,6 +33,19 @@ void add_segment(const feedrate::PlannedSegment& planned, double& s, double& t,
     t += phase.duration;
   }
   s += planned.segment.length;
+}
+
+/// Feedrate just before a row, v^2 linear over s since the row before it.
+double feedrate_at(const trace::Table& profile, std::size_t row, double s) {
+  if (row == 0) {
+    return profile.at(0, 1);
+  }
+  const double s0 = profile.at(row - 1, 0);
+  const double v0 = profile.at(row - 1, 1);
+  const double v1 = profile.at(row, 1);
+  const double length = profile.at(row, 0) - s0;
+  const double x = length > 0.0 ? std::clamp((s - s0) / length, 0.0, 1.0) : 1.0;
+  return std::sqrt(v0 * v0 + x * (v1 * v1 - v0 * v0));
 }
 
 /// Reads times of a profile at ascending places.
@@ -113,18 +125,38 @@ trace::Table lost_time(const BoundedPlan& plan, std::size_t pieces) {
   const double length = plan.bound.at(plan.bound.rows() - 1, 0);
   for (std::size_t i = 0; i <= pieces; ++i) {
     const double s = length * static_cast<double>(i) / static_cast<double>(pieces);
-    const double lost = 1e3 * (planned.at(s) - bound.at(s));
-    table.values.insert(table.values.end(), {s, lost});
+    table.values.insert(table.values.end(), {s, planned.at(s) - bound.at(s)});
   }
   return table;
 }
 
-trace::Table thinned(const trace::Table& profile) {
-  trace::Decimator decimator(2, {1}, kMostRows);
-  for (std::size_t i = 0; i < profile.rows(); ++i) {
-    decimator.push(profile.row(i).first(2));
+trace::Table thinned(const trace::Table& profile, std::size_t pieces) {
+  trace::Table thin{2, {}};
+  if (profile.rows() < 2) {
+    return thin;
   }
-  return decimator.finish();
+  const auto add = [&](double s, double v) { thin.values.insert(thin.values.end(), {s, v}); };
+  const double first = profile.at(0, 0);
+  const double piece = (profile.at(profile.rows() - 1, 0) - first) / static_cast<double>(pieces);
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const double begin = first + piece * static_cast<double>(i);
+    add(begin, feedrate_at(profile, row, begin));
+    std::size_t low = row;
+    std::size_t high = row;
+    const std::size_t from = row;
+    for (; row + 1 < profile.rows() && profile.at(row, 0) <= begin + piece; ++row) {
+      low = profile.at(row, 1) < profile.at(low, 1) ? row : low;
+      high = profile.at(row, 1) > profile.at(high, 1) ? row : high;
+    }
+    if (row > from) {
+      for (const std::size_t kept : {std::min(low, high), std::max(low, high)}) {
+        add(profile.at(kept, 0), profile.at(kept, 1));
+      }
+    }
+  }
+  add(profile.at(profile.rows() - 1, 0), profile.at(profile.rows() - 1, 1));
+  return thin;
 }
 
 }  // namespace twin::compare

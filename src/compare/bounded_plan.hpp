@@ -32,11 +32,12 @@ Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
 ///   t(s) = t_0 + (t_1 - t_0) x (v_0 + v_1) / (v_0 + v(s)).
 ///
 /// @param pieces  equal lengths of path
-/// @returns columns s [mm], lost time [ms]
+/// @returns columns s [mm], lost time [s]
 trace::Table lost_time(const BoundedPlan& plan, std::size_t pieces);
 
-/// As much of a profile as a picture needs, with its extremes.
+/// As much of a profile as a picture needs: of each of a number of equal lengths the feedrate at
+/// its begin and the least and the greatest of its rows.
 /// @returns columns s [mm], feedrate [mm/s]
-trace::Table thinned(const trace::Table& profile);
+trace::Table thinned(const trace::Table& profile, std::size_t pieces);
 
 }  // namespace twin::compare

@@ -14,12 +14,13 @@ namespace {
 using report::Album;
 using report::Panel;
 
-constexpr std::size_t kPieces = 600;  // of the curves of lost time
-constexpr std::size_t kCloseUp = 24;  // of them are looked at closely
-constexpr std::size_t kSteep = 6;     // of them among which most is lost
+constexpr std::size_t kPoints = 1500;  // of the curves of feedrate
+constexpr std::size_t kPieces = 600;   // of the curves of lost time
+constexpr std::size_t kCloseUp = 24;   // of them are looked at closely
+constexpr std::size_t kSteep = 6;      // of them among which most is lost
 constexpr const char* kBoundColour = "#F2E2B8";
 constexpr std::array<std::string_view, 2> kFeedrateColumns{"s_mm", "feedrate_mm_per_s"};
-constexpr std::array<std::string_view, 2> kLostColumns{"s_mm", "lost_ms"};
+constexpr std::array<std::string_view, 2> kLostColumns{"s_mm", "lost_s"};
 
 /// Part of the path [mm].
 struct Stretch {
@@ -62,7 +63,8 @@ Expected<Panel> feedrate_panel(const Album& album, const Contestant& contestant,
   const std::pair<const std::string&, const trace::Table&> data[] = {
       {planned, contestant.plan.planned}, {bound, contestant.plan.bound}};
   for (const auto& [name, profile] : data) {
-    if (auto written = album.write_data(name, kFeedrateColumns, thinned(part_of(profile, stretch)));
+    if (auto written =
+            album.write_data(name, kFeedrateColumns, thinned(part_of(profile, stretch), kPoints));
         !written) {
       return tl::unexpected(written.error());
     }
@@ -86,13 +88,13 @@ Expected<Panel> lost_panel(const Album& album, const Comparison& comparison,
       return tl::unexpected(written.error());
     }
     most = std::max(most, report::range_of(lost[i], 1).high);
-    plot += fmt::format("{}'{}.csv' using 's_mm':'lost_ms' with lines linestyle {} linewidth 1.5",
+    plot += fmt::format("{}'{}.csv' using 's_mm':'lost_s' with lines linestyle {} linewidth 1.5",
                         i == 0 ? "" : ", \\\n    ", name, i + 1);
   }
   return Panel{"(e) time lost to the bound",
                "distance along the path [mm]",
-               "time lost [ms]",
-               report::y_axis({0.0, std::max(most, 1.0)}),
+               "time lost [s]",
+               report::y_axis({0.0, std::max(most, 1e-3)}),
                plot,
                250};
 }
