@@ -3,13 +3,22 @@
 #include "nc_programs/generate/butterfly.hpp"
 #include "nc_programs/generate/exercises.hpp"
 #include "nc_programs/generate/shapes.hpp"
+#include "nc_programs/generate/short_blocks.hpp"
 
 namespace twin::programs {
 
 std::vector<ProgramFile> all_programs() {
-  return {outline_program(oxalis()), outline_program(dolphin()), butterfly_program(),
-          butterfly_nurbs_program(), circle_program(),           square_program(),
-          mixed_program(),           identify_program()};
+  return {outline_program(oxalis()),
+          outline_program(dolphin()),
+          butterfly_program(),
+          butterfly_nurbs_program(),
+          circle_program(),
+          square_program(),
+          mixed_program(),
+          identify_program(),
+          zigzag_program(),
+          star_program(),
+          gear_program()};
 }
 
 }  // namespace twin::programs

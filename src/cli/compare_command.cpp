@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
+#include "compare/planner_table.hpp"
 #include "compare/texts.hpp"
 #include "compare/write_results.hpp"
 #include "config/find_file.hpp"
@@ -13,14 +14,27 @@ namespace {
 /// The curve on which parameter updates are usually judged, where it is there.
 constexpr const char* kCurveProgram = "butterfly_nurbs.nc";
 
-Expected<compare::Request> request_of(const Options& options) {
+/// Files of the programs named.
+Expected<std::vector<std::filesystem::path>> find_programs(const Options& options) {
+  std::vector<std::filesystem::path> programs;
+  for (const std::string& name : options.programs) {
+    auto program = config::find_program(name);
+    if (!program) {
+      return tl::unexpected(std::move(program.error()));
+    }
+    programs.push_back(std::move(*program));
+  }
+  return programs;
+}
+
+Expected<compare::Request> request_of(const Options& options,
+                                      const std::filesystem::path& program) {
   auto machine = config::find_machine(options.machine);
-  auto program = config::find_program(options.programs.front());
-  if (!machine || !program) {
-    return tl::unexpected(!machine ? machine.error() : program.error());
+  if (!machine) {
+    return tl::unexpected(std::move(machine.error()));
   }
   compare::Request request;
-  request.program = *program;
+  request.program = program;
   request.machine_file = *machine;
   request.settings = options.settings;
   request.feedrate = feedrate_of(options);
@@ -28,32 +42,20 @@ Expected<compare::Request> request_of(const Options& options) {
     return make_machine(hal, file);
   };
   if (auto curve = config::find_program(kCurveProgram);
-      curve && curve->filename() != program->filename()) {
+      curve && curve->filename() != program.filename()) {
     request.curve_programs.push_back(*curve);
   }
   return request;
 }
 
-Expected<void> compare_command(const Options& options, const std::atomic<bool>& stop) {
-  auto request = request_of(options);
-  if (!request) {
-    return tl::unexpected(request.error());
-  }
-  const std::filesystem::path out =
-      options.out.empty()
-          ? std::filesystem::path("renders") / (request->program.stem().string() + "_compare")
-          : options.out;
-  auto workshop = report::Workshop::open(out);
-  if (!workshop) {
-    return tl::unexpected(workshop.error());
-  }
-  request->folder = workshop->folder();
-  request->running.stop = &stop;
+/// One program: the contestants, with runs.
+Expected<void> compare_contestants(const Options& options, compare::Request request,
+                                   const report::Workshop& workshop) {
   Expected<compare::Comparison> comparison;
   {
     Progress progress("comparing", options.quiet);
-    request->running.progress = progress.callback();
-    comparison = compare::compare(*request);
+    request.running.progress = progress.callback();
+    comparison = compare::compare(request);
   }
   if (!comparison) {
     return tl::unexpected(comparison.error());
@@ -61,7 +63,7 @@ Expected<void> compare_command(const Options& options, const std::atomic<bool>& 
   {
     Progress progress("plots", options.quiet || options.no_plots);
     progress.show(0.0);
-    if (auto written = write_results(*comparison, *workshop, !options.no_plots); !written) {
+    if (auto written = write_results(*comparison, workshop, !options.no_plots); !written) {
       return written;
     }
   }
@@ -70,6 +72,58 @@ Expected<void> compare_command(const Options& options, const std::atomic<bool>& 
     if (!comparison->fluctuations.empty()) {
       fmt::print("{}\n", to_text(grid_of_fluctuations(*comparison)));
     }
+  }
+  return {};
+}
+
+/// Several programs: a table of the planners, without runs.
+Expected<void> compare_planners(const Options& options, compare::Request request,
+                                const std::vector<std::filesystem::path>& programs,
+                                const report::Workshop& workshop) {
+  Expected<std::vector<compare::PlannerRow>> rows;
+  {
+    Progress progress("planning", options.quiet);
+    request.running.progress = progress.callback();
+    rows = compare::planner_rows(request, programs);
+  }
+  if (!rows) {
+    return tl::unexpected(rows.error());
+  }
+  if (auto written = write_planner_table(*rows, workshop); !written) {
+    return written;
+  }
+  if (!options.quiet) {
+    fmt::print("{}\n", to_text(grid_of_planners(*rows)));
+  }
+  return {};
+}
+
+Expected<void> compare_command(const Options& options, const std::atomic<bool>& stop) {
+  const auto programs = find_programs(options);
+  if (!programs) {
+    return tl::unexpected(programs.error());
+  }
+  auto request = request_of(options, programs->front());
+  if (!request) {
+    return tl::unexpected(request.error());
+  }
+  const bool is_one = programs->size() == 1;
+  const std::filesystem::path name =
+      is_one ? request->program.stem().string() + "_compare" : "compare";
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("renders") / name : options.out;
+  const auto workshop = report::Workshop::open(out);
+  if (!workshop) {
+    return tl::unexpected(workshop.error());
+  }
+  request->folder = workshop->folder();
+  request->running.stop = &stop;
+  const auto compared = is_one ? compare_contestants(options, *request, *workshop)
+                               : compare_planners(options, *request, *programs, *workshop);
+  if (!compared) {
+    return compared;
+  }
+  if (!options.quiet) {
     fmt::print("results in {}\n", out.string());
   }
   return {};
@@ -80,8 +134,15 @@ Expected<void> compare_command(const Options& options, const std::atomic<bool>& 
 Command add_compare(const CommandContext& context) {
   Options& options = context.options;
   CLI::App* const app = context.app.add_subcommand(
-      "compare", "The interpolators side by side on one program; the parameter updates too");
-  add_program_options(*app, options);
+      "compare",
+      "Planners and interpolators side by side on one program, the parameter updates too; "
+      "a table of the planners for several programs");
+  app->add_option("program", options.programs,
+                  "NC programs: files, or names of some in nc_programs; more than one are planned "
+                  "only, a line each program and planner")
+      ->required()
+      ->type_name("PROGRAM.nc");
+  add_feedrate_option(*app, options);
   add_machine_options(*app, options);
   add_hal_option(*app, options);
   add_result_options(*app, options, "PROGRAM_compare");

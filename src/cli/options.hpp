@@ -35,6 +35,7 @@ struct Options {
   bool video = false;
   bool no_plots = false;
   bool realtime = false;
+  bool bound = false;  ///< of plan: the lower bound of the time too
   bool quiet = false;
 };
 

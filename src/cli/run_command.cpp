@@ -6,6 +6,7 @@
 #include "cli/results.hpp"
 #include "config/find_file.hpp"
 #include "metrics/summary.hpp"
+#include "runtime/program_bound.hpp"
 #include "runtime/run.hpp"
 
 namespace twin::cli {
@@ -45,6 +46,13 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   }
   if (!result) {
     return tl::unexpected(result.error());
+  }
+  if (options.bound && !result->failure) {
+    auto bound = runtime::time_bound(*program, *machine, request.feedrate);
+    if (!bound) {
+      return tl::unexpected(bound.error());
+    }
+    result->summary.time_bound = *bound;
   }
   if (auto written = write_summary(request.directory, *result); !written) {
     return written;
@@ -102,6 +110,8 @@ Command add_plan(const CommandContext& context) {
   add_program_options(*app, options);
   add_machine_options(*app, options);
   add_interpolator_option(*app, options);
+  app->add_flag("--bound", options.bound,
+                "The lower bound of the time as well: the same path without jerk limit");
   add_result_options(*app, options);
   return {app, [&options, &stop = context.stop] { return execute(options, stop, false); }};
 }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compare/envelope.hpp"
+#include "compare/planner_figure.hpp"
 #include "core/units.hpp"
 #include "report/value_range.hpp"
 #include "trace/columns.hpp"
@@ -39,7 +40,7 @@ Expected<std::vector<Panel>> curves_over_time(const Album& album, const Comparis
   int style = 1;
   for (const Contestant& contestant : comparison.contestants) {
     const auto csv = contestant.folder / trace::kTraceName;
-    const std::string name = "feedrate_" + contestant.interpolator;
+    const std::string name = "feedrate_" + contestant.name;
     const auto copied =
         album.copy_data(csv, name, std::array<std::string_view, 2>{"t_s", "feedrate_mm_per_s"});
     if (!copied) {
@@ -49,7 +50,7 @@ Expected<std::vector<Panel>> curves_over_time(const Album& album, const Comparis
     if (!errors) {
       return tl::unexpected(errors.error());
     }
-    const std::string error_name = "contour_error_" + contestant.interpolator;
+    const std::string error_name = "contour_error_" + contestant.name;
     const trace::Table peaks = envelope(*errors, kPieces);
     if (auto written = album.write_data(
             error_name, std::array<std::string_view, 2>{"t_s", "largest_contour_error_um"}, peaks);
@@ -99,7 +100,7 @@ Expected<std::vector<Panel>> bar_panels(const Album& album, const Comparison& co
                                units::um_from_mm(run.contour_error.rms)}) {
       table.values.push_back(value);
     }
-    names += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", contestant.interpolator, i);
+    names += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", contestant.name, i);
   }
   constexpr std::array<std::string_view, 3> kColumns{"machining_time_s", "contour_error_max_um",
                                                      "contour_error_rms_um"};
@@ -187,9 +188,13 @@ Expected<std::vector<report::Picture>> draw_figures(const Comparison& comparison
   panels->insert(panels->end(), more->begin(), more->end());
   std::vector<std::string> names;
   for (const Contestant& contestant : comparison.contestants) {
-    names.push_back(contestant.interpolator);
+    names.push_back(contestant.name);
   }
-  album->add("compare", comparison.program + ", interpolators compared", *panels, names);
+  album->add("compare", comparison.program + ", planners and interpolators compared", *panels,
+             names);
+  if (auto added = add_planner_figure(*album, comparison); !added) {
+    return tl::unexpected(std::move(added.error()));
+  }
   if (!updates->empty()) {
     album->add("fluctuation", "Feedrate fluctuation under each parameter update", *updates,
                {kUpdates.begin(), kUpdates.end()});

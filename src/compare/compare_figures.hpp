@@ -12,6 +12,8 @@ namespace twin::compare {
 ///
 ///   compare      feedrate and contour error of the interpolators over time, their machining times
 ///                and contour errors as bars
+///   planners     feedrate of the planners over the path under that of their lower bound, see
+///                add_planner_figure()
 ///   fluctuation  feedrate fluctuation of the parameter updates over time; of programs with curves
 ///
 /// @param folder  is made

@@ -2,60 +2,53 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
-#include <limits>
 #include <utility>
 
-#include "gcode/reader.hpp"
-#include "runtime/planning.hpp"
+#include "compare/jobs.hpp"
 
 namespace twin::compare {
 namespace {
 
-Expected<batch::Job> job_of(const Request& request, const std::filesystem::path& program,
-                            const std::string& name, const std::vector<std::string>& settings) {
-  std::vector<std::string> all = request.settings;
-  all.insert(all.end(), settings.begin(), settings.end());
-  auto machine = config::read_machine_file(request.machine_file, all);
-  if (!machine) {
-    return tl::unexpected(std::move(machine.error()));
+/// Who runs: the interpolators under the paper's planner, and the certified one.
+struct Entry {
+  const char* planner;
+  const char* interpolator;
+
+  bool is_paper() const { return std::string_view(planner) == "paper"; }
+  std::string name() const { return is_paper() ? interpolator : planner; }
+  std::vector<std::string> settings() const {
+    return {fmt::format("planning.planner={}", planner),
+            fmt::format("interpolator.kind={}", interpolator)};
   }
-  return batch::Job{name, program, std::move(*machine), request.feedrate, {}};
+};
+
+constexpr std::array<Entry, 4> kEntries{
+    {{"paper", "nurbs"}, {"paper", "bezier"}, {"paper", "linear"}, {"certified", "nurbs"}}};
+
+/// Plans a job by itself, with its bound.
+Expected<void> add_plan_figures(const batch::Job& job, Contestant& contestant) {
+  const auto time = planning_time(job);
+  if (!time) {
+    return tl::unexpected(time.error());
+  }
+  auto plan = bounded_plan(job.program, job.machine, job.feedrate, true);
+  if (!plan) {
+    return tl::unexpected(std::move(plan.error()));
+  }
+  contestant.planning_time = *time;
+  contestant.plan = std::move(*plan);
+  return {};
 }
 
-/// Wall-clock time of planning a job's program; the best of three, for others use the cores too.
-Expected<double> planning_time(const batch::Job& job) {
-  gcode::ReaderOptions options;
-  options.feedrate = job.feedrate;
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    auto planned =
-        gcode::Reader::open(job.program.string(), options).and_then([&](gcode::Reader&& reader) {
-          return runtime::plan_program(reader, job.machine,
-                                       [](feedrate::PlannedSegment&&) { return true; });
-        });
-    if (!planned) {
-      return tl::unexpected(std::move(planned.error()));
-    }
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    best = std::min(best, taken.count());
-  }
-  return best;
-}
-
-/// Runs the interpolators.
 Expected<void> run_contestants(const Request& request, Comparison& result) {
   std::vector<batch::Job> jobs;
-  for (const std::string_view name : kInterpolatorNames) {
-    auto job = job_of(request, request.program, std::string(name),
-                      {"interpolator.kind=" + std::string(name)});
+  for (const Entry& entry : kEntries) {
+    auto job = job_of(request, request.program, entry.name(), entry.settings());
     if (!job) {
       return tl::unexpected(std::move(job.error()));
     }
-    job->directory = request.folder / ("run_" + std::string(name));
+    job->directory = request.folder / ("run_" + entry.name());
     jobs.push_back(std::move(*job));
   }
   auto summaries = batch::run_jobs(jobs, request.running);
@@ -63,11 +56,12 @@ Expected<void> run_contestants(const Request& request, Comparison& result) {
     return tl::unexpected(std::move(summaries.error()));
   }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const auto time = planning_time(jobs[i]);
-    if (!time) {
-      return tl::unexpected(time.error());
+    Contestant contestant{
+        jobs[i].name, kEntries[i].planner, (*summaries)[i], jobs[i].directory, 0.0, {}};
+    if (auto added = add_plan_figures(jobs[i], contestant); !added) {
+      return added;
     }
-    result.contestants.push_back({jobs[i].name, (*summaries)[i], jobs[i].directory, *time});
+    result.contestants.push_back(std::move(contestant));
   }
   result.machine = jobs.front().machine.name;
   result.hal = summaries->front().hal;
@@ -81,7 +75,7 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
                          std::vector<batch::Job>& jobs, std::vector<Fluctuation>& fluctuations) {
   for (const std::string rule : {"", "constant"}) {
     for (const std::string update : kUpdates) {
-      std::vector<std::string> settings{"interpolator.kind=nurbs",
+      std::vector<std::string> settings{"planning.planner=paper", "interpolator.kind=nurbs",
                                         "interpolator.parameter_update=" + update};
       if (!rule.empty()) {
         settings.push_back("planning.feedrate_rule=" + rule);

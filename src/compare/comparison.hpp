@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "batch/run_jobs.hpp"
+#include "compare/bounded_plan.hpp"
 #include "core/limits.hpp"
 
-/// The interpolators side by side on one program.
+/// Planners and interpolators side by side.
 namespace twin::compare {
 
 /// What is compared, and on which machine.
@@ -23,12 +24,14 @@ struct Request {
   batch::Options running;
 };
 
-/// One interpolator's run.
+/// One run: an interpolator under the paper's planner, or the certified planner.
 struct Contestant {
-  std::string interpolator;  ///< "nurbs", "bezier", "linear"
+  std::string name;     ///< "nurbs", "bezier", "linear", "certified"
+  std::string planner;  ///< "paper", "certified"
   metrics::Summary summary;
   std::filesystem::path folder;  ///< with its trace.csv
   double planning_time = 0.0;    ///< of planning alone, read to planned segment, wall clock [s]
+  BoundedPlan plan;              ///< with profiles
 };
 
 /// The parameter updates, as the machine file calls them.
@@ -53,10 +56,12 @@ struct Comparison {
   std::vector<Fluctuation> fluctuations;  ///< by program, rule, update; of programs with curves
 };
 
-/// Runs a program under each interpolator, side by side, and plans it under each parameter update
-/// with the feedrate rule of the machine file and at constant feedrate.
+/// Runs a program under each interpolator of the paper's planner and under the certified one, side
+/// by side, and plans it under each parameter update with the feedrate rule of the machine file and
+/// at constant feedrate.
 ///
-/// Planning is timed by itself, one after the other, the best of three.
+/// Planning is timed by itself, one after the other, the best of three, and once more with the
+/// lower bound of its time.
 Expected<Comparison> compare(const Request& request);
 
 }  // namespace twin::compare

@@ -1,5 +1,6 @@
 #include "compare/figure_kinds.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/units.hpp"
@@ -17,15 +18,21 @@ double of_run(const Contestant& c, Get get) {
 
 using Run = metrics::MachineFigures;
 
-constexpr std::array<FigureKind, 19> kFigures{{
+constexpr std::array<FigureKind, 25> kFigures{{
     {"planned_time_s", "planned time", "s", 3,
      [](const Contestant& c) { return c.summary.planned_time; }},
+    {"time_bound_s", "lower bound of it", "s", 3,
+     [](const Contestant& c) { return c.plan.time_bound; }},
+    {"bound_ratio", "planned time / bound", "", 4,
+     [](const Contestant& c) { return c.summary.planned_time / c.plan.time_bound; }},
     {"machining_time_s", "machining time", "s", 3,
      [](const Contestant& c) { return of_run(c, [](const Run& r) { return r.machining_time; }); }},
     {"segments", "segments", "", 0,
      [](const Contestant& c) { return static_cast<double>(c.summary.segments.total); }},
     {"compression_factor", "compression factor", "", 2,
      [](const Contestant& c) { return c.summary.compression_factor; }},
+    {"certified_deviation_um", "certified deviation", "um", 2,
+     [](const Contestant& c) { return um_from_mm(c.plan.deviation); }},
     {"command_contour_error_max_um", "contour error of command, max", "um", 2,
      [](const Contestant& c) { return um_from_mm(c.summary.command_contour_error.max); }},
     {"command_contour_error_rms_um", "contour error of command, RMS", "um", 2,
@@ -37,6 +44,14 @@ constexpr std::array<FigureKind, 19> kFigures{{
     {"contour_error_rms_um", "contour error, RMS", "um", 2,
      [](const Contestant& c) {
        return of_run(c, [](const Run& r) { return um_from_mm(r.contour_error.rms); });
+     }},
+    {"table_contour_error_max_um", "contour error of table, max", "um", 2,
+     [](const Contestant& c) {
+       return of_run(c, [](const Run& r) { return um_from_mm(r.table_contour_error.max); });
+     }},
+    {"table_contour_error_rms_um", "contour error of table, RMS", "um", 2,
+     [](const Contestant& c) {
+       return of_run(c, [](const Run& r) { return um_from_mm(r.table_contour_error.rms); });
      }},
     {"x_tracking_error_max_um", "tracking error of X, max", "um", 2,
      [](const Contestant& c) {
@@ -72,6 +87,11 @@ constexpr std::array<FigureKind, 19> kFigures{{
      [](const Contestant& c) { return 100.0 * c.summary.feedrate_fluctuation.rms; }},
     {"planning_time_ms", "time to plan (wall clock)", "ms", 2,
      [](const Contestant& c) { return 1e3 * c.planning_time; }},
+    {"planning_time_per_block_us", "the same per block", "us", 3,
+     [](const Contestant& c) {
+       return 1e6 * c.planning_time /
+              static_cast<double>(std::max<std::int64_t>(c.summary.blocks.total, 1));
+     }},
 }};
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace twin::compare {
 
-/// One figure by which interpolators are compared.
+/// One figure by which contestants are compared.
 struct FigureKind {
   std::string_view key;   ///< "contour_error_max_um"
   std::string_view name;  ///< "contour error max"

@@ -23,7 +23,8 @@ report::Grid grid_of_interpolators(const Comparison& comparison) {
   grid.title = fmt::format("{} on {} ({}), period {:g} ms", comparison.program, comparison.machine,
                            comparison.hal, 1e3 * comparison.period);
   for (const Contestant& contestant : comparison.contestants) {
-    grid.head.push_back(contestant.interpolator);
+    grid.head.push_back(contestant.planner == "paper" ? "paper " + contestant.name
+                                                      : contestant.name);
   }
   grid.head.emplace_back("limit");
   for (const FigureKind& kind : figure_kinds()) {
@@ -64,7 +65,7 @@ report::Grid grid_of_fluctuations(const Comparison& comparison) {
 std::string interpolators_csv(const Comparison& comparison) {
   std::string text = "figure,unit";
   for (const Contestant& contestant : comparison.contestants) {
-    text += "," + contestant.interpolator;
+    text += "," + contestant.name;
   }
   text += "\n";
   for (const FigureKind& kind : figure_kinds()) {
@@ -93,8 +94,7 @@ std::string json_text(const Comparison& comparison) {
             {"period_s", comparison.period}};
   for (const Contestant& contestant : comparison.contestants) {
     for (const FigureKind& kind : figure_kinds()) {
-      json["interpolators"][contestant.interpolator][std::string(kind.key)] =
-          rounded(kind.get(contestant));
+      json["interpolators"][contestant.name][std::string(kind.key)] = rounded(kind.get(contestant));
     }
   }
   json["feedrate_fluctuation"] = Json::array();
@@ -110,7 +110,7 @@ std::string json_text(const Comparison& comparison) {
 
 std::string markdown_text(const Comparison& comparison) {
   std::string text =
-      "# Interpolators compared\n\n" + to_markdown(grid_of_interpolators(comparison));
+      "# Planners and interpolators compared\n\n" + to_markdown(grid_of_interpolators(comparison));
   if (!comparison.fluctuations.empty()) {
     text += to_markdown(grid_of_fluctuations(comparison));
   }

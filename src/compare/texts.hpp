@@ -7,13 +7,13 @@
 
 namespace twin::compare {
 
-/// Figures of the interpolators, a column each, and the limits of the machine.
+/// Figures of the contestants, a column each, and the limits of the machine.
 report::Grid grid_of_interpolators(const Comparison& comparison);
 
 /// Feedrate fluctuation, a column each parameter update; empty where no program has curves.
 report::Grid grid_of_fluctuations(const Comparison& comparison);
 
-/// compare.csv: figure,unit,nurbs,bezier,linear
+/// compare.csv: figure,unit,nurbs,bezier,linear,certified
 std::string interpolators_csv(const Comparison& comparison);
 
 /// fluctuation.csv: program,feedrate_rule,parameter_update,max_percent,rms_percent

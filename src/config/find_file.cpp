@@ -42,6 +42,7 @@ std::vector<fs::path> data_folders(std::string_view name) {
       fs::path(name),
       program.parent_path().parent_path() / TWIN_INSTALL_DATADIR / "twin" / name,
       fs::path(TWIN_SOURCE_DIR) / name,
+      fs::path(TWIN_BINARY_DIR) / name,
   };
   std::vector<fs::path> folders;
   std::copy_if(std::begin(candidates), std::end(candidates), std::back_inserter(folders),

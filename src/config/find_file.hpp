@@ -14,8 +14,8 @@ namespace twin::config {
 inline constexpr std::string_view kDefaultMachine = "xy_table.toml";
 
 /// Folders of this name that belong to the program, best first: below the current directory, of the
-/// installation (share/twin beside the bin folder of the executable), of the source tree. Those
-/// that do not exist are left out.
+/// installation (share/twin beside the bin folder of the executable), of the source tree, of the
+/// build. Those that do not exist are left out.
 std::vector<std::filesystem::path> data_folders(std::string_view name);
 
 /// A file by path, else by name in the first of some folders that has it; the extension may be left

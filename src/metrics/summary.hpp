@@ -96,6 +96,7 @@ struct Summary {
   double compression_factor = 0.0;            ///< blocks over segments [-]
   double path_length = 0.0;                   ///< [mm]
   double planned_time = 0.0;                  ///< [s]
+  std::optional<double> time_bound;           ///< lower bound of it, where asked for [s]
   ErrorFigures command_contour_error;         ///< set points against programmed path
   ShareFigures feedrate_fluctuation;          ///< see FeedrateFluctuation
   AuditPeaks audit;

@@ -91,6 +91,10 @@ std::string to_json(const Summary& summary) {
   json["compression_factor"] = rounded(summary.compression_factor);
   json["path_length_mm"] = rounded(summary.path_length);
   json["planned_time_s"] = rounded(summary.planned_time);
+  if (summary.time_bound) {
+    json["time_bound_s"] = rounded(*summary.time_bound);
+    json["bound_ratio"] = rounded(summary.planned_time / *summary.time_bound);
+  }
   if (summary.run) {
     json["machining_time_s"] = rounded(summary.run->machining_time);
   }

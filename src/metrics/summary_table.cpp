@@ -62,7 +62,10 @@ void add_path(Table& table, const Summary& s) {
   }
   table.line("compression factor", fmt::format("{:.2f}", s.compression_factor));
   table.line("path length", fmt::format("{:.3f} mm", s.path_length));
-  table.line("planned time", fmt::format("{:.3f} s", s.planned_time));
+  table.line("planned time",
+             s.time_bound ? fmt::format("{:.3f} s, {:.4f} of the bound of {:.3f} s", s.planned_time,
+                                        s.planned_time / *s.time_bound, *s.time_bound)
+                          : fmt::format("{:.3f} s", s.planned_time));
   if (s.run) {
     table.line("machining time", fmt::format("{:.3f} s, {:.1f} x real time", s.run->machining_time,
                                              s.run->real_time_factor));

@@ -1,9 +1,6 @@
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,51 +8,46 @@
 #include "gcode/reader.hpp"
 #include "path/builder.hpp"
 #include "runtime/planning.hpp"
+#include "tests/bench/peak_memory.hpp"
+#include "tests/bench/wavy_file.hpp"
 
-/// Read to planned segment, on one core; the reader alone is the reference beside it.
+/// Read to planned segment, on one core and from a file, so that no program is held in memory; the
+/// reader alone is the reference beside it.
+///
+/// Counters: blocks/s, time of one block, peak resident memory of the process in this benchmark.
 namespace twin::runtime {
 namespace {
 
-/// A wavy closed path of short blocks [mm], 4 decimals as CAM writes them.
-std::string wavy_program(std::int64_t blocks, double block_length) {
-  std::string text = "G21 G90 G17 G64\nG01 F3000\n";
-  double x = 0.0;
-  double y = 0.0;
-  double heading = 0.0;
-  for (std::int64_t i = 0; i < blocks; ++i) {
-    const double s = block_length * static_cast<double>(i);
-    heading += block_length * (0.12 * std::sin(s / 7.0) + 0.02);
-    x += block_length * std::cos(heading);
-    y += block_length * std::sin(heading);
-    text += fmt::format("X{:.4f} Y{:.4f}\n", x, y);
-  }
-  return text + "M30\n";
-}
-
-void count_blocks(benchmark::State& state) {
-  state.SetItemsProcessed(state.iterations() * state.range(0));
+void report(benchmark::State& state, std::int64_t peak_bytes) {
+  const auto blocks = static_cast<double>(state.iterations() * state.range(0));
+  state.counters["blocks/s"] = benchmark::Counter(blocks, benchmark::Counter::kIsRate);
+  state.counters["s/block"] =
+      benchmark::Counter(blocks, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["peak_MiB"] = static_cast<double>(peak_bytes) / (1024.0 * 1024.0);
 }
 
 void read_only(benchmark::State& state) {
-  const std::string text = wavy_program(state.range(0), 0.26);
+  const bench::WavyFile file(state.range(0), 0.26);
+  bench::reset_peak_memory();
   for (auto _ : state) {
-    gcode::Reader reader = gcode::Reader::from_text(text, "bench.nc");
-    for (auto block = reader.next(); block && block->has_value(); block = reader.next()) {
+    auto reader = gcode::Reader::open(file.path().string());
+    for (auto block = reader->next(); block && block->has_value(); block = reader->next()) {
       benchmark::DoNotOptimize(block);
     }
   }
-  count_blocks(state);
+  report(state, bench::peak_memory());
 }
 
-void read_to_planned(benchmark::State& state, double block_length, CurveKind curves,
-                     Planner planner = Planner::kPaper) {
-  const std::string text = wavy_program(state.range(0), block_length);
+void read_to_planned(benchmark::State& state, double block_length, Planner planner,
+                     CurveKind curves) {
+  const bench::WavyFile file(state.range(0), block_length);
   config::MachineFile machine;
-  machine.path.curves = curves;
   machine.path.planner = planner;
+  machine.path.curves = curves;
+  bench::reset_peak_memory();
   for (auto _ : state) {
-    gcode::Reader reader = gcode::Reader::from_text(text, "bench.nc");
-    auto figures = plan_program(reader, machine, [](feedrate::PlannedSegment&& planned) {
+    auto reader = gcode::Reader::open(file.path().string());
+    auto figures = plan_program(*reader, machine, [](feedrate::PlannedSegment&& planned) {
       benchmark::DoNotOptimize(planned);
       return true;
     });
@@ -63,19 +55,20 @@ void read_to_planned(benchmark::State& state, double block_length, CurveKind cur
       state.SkipWithError("the program could not be planned");
     }
   }
-  count_blocks(state);
+  report(state, bench::peak_memory());
 }
 
 /// Blocks that were read before to segments: the path builder alone.
 void blocks_to_path(benchmark::State& state, double block_length, Planner planner) {
+  const bench::WavyFile file(state.range(0), block_length);
+  auto reader = gcode::Reader::open(file.path().string());
   std::vector<gcode::Block> blocks;
-  gcode::Reader reader =
-      gcode::Reader::from_text(wavy_program(state.range(0), block_length), "bench.nc");
-  for (auto block = reader.next(); block && block->has_value(); block = reader.next()) {
+  for (auto block = reader->next(); block && block->has_value(); block = reader->next()) {
     blocks.push_back(**block);
   }
   config::MachineFile machine;
   machine.path.planner = planner;
+  bench::reset_peak_memory();
   for (auto _ : state) {
     const auto builder =
         path::make_builder(machine.path, machine.planning, machine.limits,
@@ -85,37 +78,41 @@ void blocks_to_path(benchmark::State& state, double block_length, Planner planne
     }
     builder->finish();
   }
-  count_blocks(state);
+  report(state, bench::peak_memory());
 }
 
-BENCHMARK(read_only)->Arg(100000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, curves_0_26_mm, 0.26, CurveKind::kNurbs)
+constexpr std::int64_t kFewest = 1000;
+constexpr std::int64_t kMost = 10000000;
+
+BENCHMARK(read_only)->RangeMultiplier(10)->Range(kFewest, kMost)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, paper_0_26_mm, 0.26, Planner::kPaper, CurveKind::kNurbs)
     ->RangeMultiplier(10)
-    ->Range(1000, 1000000)
+    ->Range(kFewest, kMost)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, curves_0_02_mm, 0.02, CurveKind::kNurbs)
+BENCHMARK_CAPTURE(read_to_planned, certified_0_26_mm, 0.26, Planner::kCertified, CurveKind::kNurbs)
+    ->RangeMultiplier(10)
+    ->Range(kFewest, kMost)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, paper_0_02_mm, 0.02, Planner::kPaper, CurveKind::kNurbs)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, lines_0_26_mm, 0.26, CurveKind::kNone)
+BENCHMARK_CAPTURE(read_to_planned, certified_0_02_mm, 0.02, Planner::kCertified, CurveKind::kNurbs)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, paper_lines_0_26_mm, 0.26, Planner::kPaper, CurveKind::kNone)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, certified_lines_0_26_mm, 0.26, Planner::kCertified,
+                  CurveKind::kNone)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(blocks_to_path, paper_0_26_mm, 0.26, Planner::kPaper)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(blocks_to_path, certified_0_26_mm, 0.26, Planner::kCertified)
-    ->RangeMultiplier(10)
-    ->Range(1000, 1000000)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(blocks_to_path, certified_0_02_mm, 0.02, Planner::kCertified)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
-
-BENCHMARK_CAPTURE(read_to_planned, certified_0_26_mm, 0.26, CurveKind::kNurbs, Planner::kCertified)
-    ->RangeMultiplier(10)
-    ->Range(1000, 1000000)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, certified_lines_0_26_mm, 0.26, CurveKind::kNone,
-                  Planner::kCertified)
+BENCHMARK_CAPTURE(blocks_to_path, certified_0_02_mm, 0.02, Planner::kCertified)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 

@@ -47,8 +47,10 @@ class ComparisonTest : public ::testing::Test {
 TEST_F(ComparisonTest, EachInterpolatorRunsTheSameProgram) {
   const auto result = compare(request);
   ASSERT_TRUE(result) << to_string(result.error());
-  ASSERT_EQ(result->contestants.size(), 3U);
-  EXPECT_EQ(result->contestants[0].interpolator, "nurbs");
+  ASSERT_EQ(result->contestants.size(), 4U);
+  EXPECT_EQ(result->contestants[0].name, "nurbs");
+  EXPECT_EQ(result->contestants[3].name, "certified");
+  EXPECT_EQ(result->contestants[3].planner, "certified");
   EXPECT_GT(result->contestants[0].summary.segments.curves, 0);
   EXPECT_GT(result->contestants[1].summary.segments.curves, 0);
   EXPECT_EQ(result->contestants[2].summary.segments.curves, 0);
@@ -58,6 +60,9 @@ TEST_F(ComparisonTest, EachInterpolatorRunsTheSameProgram) {
   EXPECT_GT(result->contestants[0].summary.command_contour_error.max, 1e-5);
   for (const Contestant& contestant : result->contestants) {
     EXPECT_NEAR(contestant.summary.path_length, 24.0, 0.01);
+    EXPECT_GE(contestant.summary.planned_time, contestant.plan.time_bound);
+    // 24 mm at 50 mm/s, with 2,450 mm/s^2 at both ends
+    EXPECT_NEAR(contestant.plan.time_bound, 24.0 / 50.0 + 50.0 / 2450.0, 1e-3);
     EXPECT_GT(contestant.planning_time, 0.0);
     EXPECT_TRUE(std::filesystem::exists(contestant.folder / "trace.csv"));
   }
@@ -94,16 +99,16 @@ TEST_F(ComparisonTest, TextsAgree) {
   std::istringstream csv(interpolators_csv(*result));
   std::string line;
   std::getline(csv, line);
-  EXPECT_EQ(line, "figure,unit,nurbs,bezier,linear");
+  EXPECT_EQ(line, "figure,unit,nurbs,bezier,linear,certified");
   const auto json = nlohmann::json::parse(json_text(*result));
   std::size_t figures = 0;
   while (std::getline(csv, line)) {
     ++figures;
-    EXPECT_EQ(std::ranges::count(line, ','), 4) << line;
+    EXPECT_EQ(std::ranges::count(line, ','), 5) << line;
     const std::string key = line.substr(0, line.find(','));
-    const double linear = std::stod(line.substr(line.rfind(',') + 1));
-    EXPECT_NEAR(json["interpolators"]["linear"][key].get<double>(), linear,
-                1e-5 * std::abs(linear) + 1e-12)
+    const double certified = std::stod(line.substr(line.rfind(',') + 1));
+    EXPECT_NEAR(json["interpolators"]["certified"][key].get<double>(), certified,
+                1e-5 * std::abs(certified) + 1e-12)
         << key;
   }
   EXPECT_EQ(json["interpolators"]["linear"].size(), figures);
@@ -124,7 +129,8 @@ TEST_F(ComparisonTest, PicturesAndTablesAreWritten) {
   }
   for (const char* const name :
        {"compare.csv", "compare.md", "compare.json", "fluctuation.csv", "figures/compare.png",
-        "figures/compare.svg", "figures/fluctuation.png", "figures/fluctuation.svg"}) {
+        "figures/compare.svg", "figures/fluctuation.png", "figures/fluctuation.svg",
+        "figures/planners.png", "figures/planners.svg"}) {
     EXPECT_GT(std::filesystem::file_size(out / name), 100U) << name;
   }
 }

@@ -75,8 +75,8 @@ TEST(Mixed, SineRunHasBlocksOfAFifthOfAMillimetre) {
 }
 
 TEST(EveryProgram, KeepsToTheTravelAndEndsWithM30) {
-  for (const char* name :
-       {"oxalis.nc", "dolphin.nc", "butterfly.nc", "circle.nc", "square.nc", "mixed.nc"}) {
+  for (const char* name : {"oxalis.nc", "dolphin.nc", "butterfly.nc", "circle.nc", "square.nc",
+                           "mixed.nc", "zigzag.nc", "star.nc", "gear.nc"}) {
     const std::vector<std::string> code = code_lines(name);
     EXPECT_EQ(code.back(), "M30") << name;
     for (const std::string& line : code) {

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Generator, WritesTheFilesThatAreKept) {
   const std::vector<ProgramFile> made = all_programs();
-  ASSERT_EQ(made.size(), 8U);
+  ASSERT_EQ(made.size(), 11U);
   for (const ProgramFile& file : made) {
     EXPECT_TRUE(file.text == test::read_file(file.name))
         << file.name << " differs; run twin_generate_programs nc_programs";

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "bound/time_bound.hpp"
+#include "config/machine_file.hpp"
+#include "core/error.hpp"
+
+namespace twin::runtime {
+
+/// Plans a program and bounds the time of its path from below, see bound::TimeBound.
+///
+/// @param feedrate  replaces the program's F words [mm/s]
+/// @param profile   if given, gets the bound's feedrate along the path
+/// @returns [s]
+Expected<double> time_bound(const std::filesystem::path& program,
+                            const config::MachineFile& machine,
+                            const std::optional<double>& feedrate,
+                            bound::TimeBound::Profile profile = {});
+
+}  // namespace twin::runtime
