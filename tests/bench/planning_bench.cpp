@@ -6,6 +6,7 @@
 
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
+#include "runtime/program_bound.hpp"
 #include "tests/bench/peak_memory.hpp"
 #include "tests/bench/wavy_file.hpp"
 
@@ -56,6 +57,17 @@ void read_to_planned(benchmark::State& state, double block_length, Planner plann
   report(state, bench::peak_memory());
 }
 
+void read_to_bound(benchmark::State& state) {
+  const bench::WavyFile file(state.range(0), 0.26);
+  const config::MachineFile machine;
+  bench::reset_peak_memory();
+  for (auto _ : state) {
+    auto bound = time_bound(file.path(), machine, {});
+    benchmark::DoNotOptimize(bound);
+  }
+  report(state, bench::peak_memory());
+}
+
 constexpr std::int64_t kFewest = 1000;
 constexpr std::int64_t kMost = 10000000;
 
@@ -76,6 +88,11 @@ BENCHMARK_CAPTURE(read_to_planned, certified_0_02_mm, 0.02, Planner::kCertified,
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_to_planned, paper_lines_0_26_mm, 0.26, Planner::kPaper, CurveKind::kNone)
     ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+
+BENCHMARK(read_to_bound)
+    ->RangeMultiplier(10)
+    ->Range(kFewest, 1000000)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
