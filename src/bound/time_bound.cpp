@@ -9,7 +9,7 @@
 namespace twin::bound {
 namespace {
 
-constexpr double kSameTime = 1e-3;  // change of time below which a grid is fine enough [-]
+constexpr double kSameTime = 3e-4;  // change of time below which a grid is fine enough [-]
 constexpr int kMostHalvings = 6;
 
 /// The geometry of a segment without its blocks.
@@ -150,12 +150,14 @@ void TimeBound::settle(bool is_last) {
   }
   const double end = pass.node[pass.first[until]];
   double time = time_until(until, pass);
+  double fall = 0.0;  // of the time from the last grid but one to the last
   for (int i = 0; i < kMostHalvings; ++i) {
     const double coarse = time;
     fineness = fineness.halved();
     make_grid(until, fineness, pass);
     run_backward(end, pass);
     time = time_until(until, pass);
+    fall = std::max(coarse - time, 0.0);
     if (std::abs(time - coarse) <= kSameTime * time) {
       break;
     }
@@ -163,7 +165,7 @@ void TimeBound::settle(bool is_last) {
   if (profile_) {
     report(until, pass);
   }
-  time_ += time;
+  time_ += time - fall;
   start_ = pass.node[pass.first[until]];
   for (std::size_t i = 0; i < until; ++i) {
     s_ += pieces_[i].segment.length;

@@ -34,8 +34,11 @@ namespace twin::bound {
 ///
 /// Segments are kept until nothing that follows can change the result up to there: a pass backward
 /// from rest and one from the cap agree. The grid of each such stretch is halved until its time
-/// changes by less than 0.1 %. Where the passes do not agree within kMostSegments the faster one is
-/// taken, which keeps the bound below.
+/// changes by less than 0.03 %. Without limits of axes every grid gives a lower bound, and finer
+/// ones rise to the optimum. With them u is constant over a cell, which asks too much of it: there
+/// finer grids fall, by half as much with each halving, and the last fall is taken off once more.
+/// Where the passes do not agree within kMostSegments the faster one is taken, which keeps the
+/// bound below.
 class TimeBound {
  public:
   static constexpr std::size_t kWindow = 256;         ///< segments looked at together

@@ -8,6 +8,7 @@
 #include "gcode/reader.hpp"
 #include "path/builder.hpp"
 #include "runtime/planning.hpp"
+#include "runtime/program_bound.hpp"
 #include "tests/bench/peak_memory.hpp"
 #include "tests/bench/wavy_file.hpp"
 
@@ -81,6 +82,17 @@ void blocks_to_path(benchmark::State& state, double block_length, Planner planne
   report(state, bench::peak_memory());
 }
 
+void read_to_bound(benchmark::State& state) {
+  const bench::WavyFile file(state.range(0), 0.26);
+  const config::MachineFile machine;
+  bench::reset_peak_memory();
+  for (auto _ : state) {
+    auto bound = time_bound(file.path(), machine, {});
+    benchmark::DoNotOptimize(bound);
+  }
+  report(state, bench::peak_memory());
+}
+
 constexpr std::int64_t kFewest = 1000;
 constexpr std::int64_t kMost = 10000000;
 
@@ -114,6 +126,10 @@ BENCHMARK_CAPTURE(blocks_to_path, certified_0_26_mm, 0.26, Planner::kCertified)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(blocks_to_path, certified_0_02_mm, 0.02, Planner::kCertified)
     ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(read_to_bound)
+    ->RangeMultiplier(10)
+    ->Range(kFewest, 1000000)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -78,6 +78,17 @@ TEST_F(Results, OfAPlanHaveTheSetPointsAlone) {
   EXPECT_EQ(keys(summary), kPlanKeys1 + "command_contour_error_um{max rms} " + kAudit);
 }
 
+TEST_F(Results, OfAPlanHaveItsBoundWhereAskedFor) {
+  const Json summary = run("plan", "out", {"--bound"});
+  EXPECT_EQ(keys(summary), kPlanKeys1 + "time_bound_s bound_ratio " +
+                               "command_contour_error_um{max rms} " + kAudit);
+  const double bound = summary["time_bound_s"];
+  const double planned = summary["planned_time_s"];
+  EXPECT_LT(bound, planned);
+  EXPECT_GT(bound, 0.5 * planned);
+  EXPECT_NEAR(summary["bound_ratio"].get<double>(), planned / bound, 1e-6);
+}
+
 TEST_F(Results, TraceStartsAndEndsAtRestOnThePathsEnds) {
   const Json summary = run("run", "out");
   const test::TraceRows rows(folder / "out/trace.csv");

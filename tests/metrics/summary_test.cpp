@@ -68,6 +68,15 @@ TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
   EXPECT_THAT(keys(json["cycle_time_us"]), testing::ElementsAre("p50", "p99", "max"));
 }
 
+TEST(SummaryJson, TheBoundStandsBehindThePlannedTimeWithItsRatio) {
+  Summary summary = sample_summary();
+  summary.time_bound = 8.08;
+  const Json json = Json::parse(to_json(summary));
+  EXPECT_EQ(json["time_bound_s"], 8.08);
+  EXPECT_EQ(json["bound_ratio"], 1.25);
+  EXPECT_THAT(to_table(summary, Limits{}), testing::HasSubstr("1.2500 of the bound of 8.080 s"));
+}
+
 TEST(SummaryJson, ValuesAreInTheUnitsOfTheirKeys) {
   const Json json = Json::parse(to_json(sample_summary()));
   EXPECT_EQ(json["blocks"]["length_mm"]["mean"], 0.353);
