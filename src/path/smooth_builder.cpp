@@ -12,7 +12,7 @@
 namespace twin::path {
 namespace {
 
-constexpr double kSagittaShare = 0.8;  // of the tolerance, at a smooth vertex
+constexpr double kSagittaShare = 1.0;  // of the tolerance, at a smooth vertex
 
 }  // namespace
 
