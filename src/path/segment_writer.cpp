@@ -78,19 +78,23 @@ void SegmentWriter::set_demands(Segment& segment) const {
 template <class PlaceOf>
 void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place_of) {
   set_demands(segment);
+  double moved = 0.0;
   while (!blocks_.is_empty()) {
     const BlockDemand& block = blocks_.front();
     const bool is_inside = block.end < end - kSame;
+    const bool goes_on = block.end > end + kSame;
     const double s = is_inside ? std::min(place_of(block.end), segment.length) : segment.length;
     segment.marks.push_back({s, block.length, block.number, block.line});
-    const bool goes_on = block.end > end + kSame;
-    if (!goes_on) {
-      blocks_.drop_before(blocks_.begin_index() + 1);
+    moved = std::max(moved, block.deviation);
+    if (goes_on) {
+      break;
     }
-    if (!is_inside) {
+    blocks_.drop_before(blocks_.begin_index() + 1);
+    if (!is_inside && (blocks_.is_empty() || blocks_.front().end > end + kSame)) {
       break;
     }
   }
+  segment.deviation += moved;
 }
 
 void SegmentWriter::exact(Segment&& segment, double begin, double end) {

@@ -19,6 +19,7 @@ struct BlockDemand {
   std::int64_t line = 0;      ///< NC line
   double feedrate = 0.0;      ///< [mm/s]
   double corner_error = 0.0;  ///< [mm]
+  double deviation = 0.0;     ///< of the base path at its end from the block's own [mm]
   bool is_rapid = false;
 
   bool has_same_demands(const BlockDemand& other) const noexcept {

@@ -17,17 +17,19 @@ struct Stretch {
   double end = 0.0;    ///< arc length of vertex `last` + 1 [mm]
 };
 
-/// The cubic nearest to a polygon over an interval of its arc length, in the mean square.
+/// The cubic nearest to the smooth path A(s) of a polygon over an interval of its arc length, in
+/// the mean square.
 ///
 /// With x = -1..1 across the interval and Legendre's polynomials L_k,
-///   p(x) = sum_k c_k L_k(x),   c_k = (2 k + 1) / 2 integral of V(s(x)) L_k(x) dx,   k = 0..3.  (1)
-/// On the part of a block around x = a, of half width d, V = m + d' y with y = -1..1, and
-///   1/(2d) integral of V x^k dx = m                      | k = 0
-///                                 a m + (d/3) d'         | k = 1
-///                                 (a^2 + d^2/3) m + (2 a d/3) d'              | k = 2
-///                                 (a^3 + a d^2) m + (a^2 d + d^3/5) d'        | k = 3,        (2)
+///   p(x) = sum_k c_k L_k(x),   c_k = (2 k + 1) / 2 integral of A(s(x)) L_k(x) dx,   k = 0..3.  (1)
+/// On the part of a block around x = a, of half width d, A = m + d' y + b (1/3 - y^2), y = -1..1,
+/// and
+///   1/(2d) integral of A x^k dx = m                                                       | k = 0
+///                                 a m + (d/3) d'                                          | k = 1
+///                                 (a^2 + d^2/3) m + (2 a d/3) d' - (4/45) d^2 b           | k = 2
+///                                 (a^3 + a d^2) m + (a^2 d + d^3/5) d' - (4/15) a d^2 b   | k = 3,
 /// so (1) is exact and costs a fixed amount a block. Beyond its ends the polygon goes on as its own
-/// point reflection about the end point, V(s_end + x) = 2 V_end - V(s_end - x).
+/// point reflection about the end point, A(s_end + x) = 2 A_end - A(s_end - x).
 ///
 /// @note Real-time safe.
 class LocalCubic {
@@ -35,12 +37,8 @@ class LocalCubic {
   /// @param block  a block near the beginning of the interval
   LocalCubic(const Stretch& stretch, std::size_t block, double begin, double end) noexcept;
 
-  /// Mean square distance of cubic and polygon over the interval [mm^2].
+  /// Mean square distance of cubic and path over the interval [mm^2].
   double mean_square() const noexcept { return mean_square_; }
-
-  /// Mean square of the heights of the arcs over the blocks in the interval
-  /// (Polygon::bulge_squared) [mm^2].
-  double mean_bulge_squared() const noexcept { return bulge_; }
 
   /// Blossom of the cubic at the interval's begin, a place in it and its end: with x of the middle
   /// place,
@@ -56,7 +54,7 @@ class LocalCubic {
   int blocks() const noexcept { return blocks_; }
 
  private:
-  void add(double from, const Vec3& start, double to, const Vec3& end, double bulge) noexcept;
+  void add(double from, const Vec3& start, double to, const Vec3& end, const Vec3& bulge) noexcept;
   void add_blocks(const Stretch& stretch, std::size_t block, double from, double to,
                   double mirror) noexcept;
   void finish() noexcept;
@@ -67,7 +65,6 @@ class LocalCubic {
   Vec3 origin_;
   std::array<Vec3, 4> moment_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   double square_ = 0.0;
-  double bulge_ = 0.0;
   double mean_square_ = 0.0;
   int blocks_ = 0;
 };

@@ -5,15 +5,26 @@
 
 namespace twin::smoothing {
 
-/// The programmed points of a run of short blocks, with the arc length of the polygon through them.
+/// The programmed points of a run of short blocks, with the arc length of the polygon through them,
+/// and the smooth path that they suggest.
 ///
-/// Block i goes from vertex i to vertex i + 1,
-///   V(s) = V_i + (s - s_i) e_i,   s_i <= s <= s_{i+1},   s_{i+1} = s_i + |V_{i+1} - V_i|.
+/// Block i goes straight from vertex i to vertex i + 1,
+///   V(s) = V_i + (s - s_i) e_i,   s_i <= s <= s_{i+1},   s_{i+1} = s_i + L_i.
+/// Programs cut rounds into chords. The curvature at a vertex and the sagitta of a block,
+///   k_i = 2 (e_i - e_{i-1}) / (L_{i-1} + L_i),   b_i = -(L_i^2 / 8) minmod(k_i, k_{i+1}),
+/// the shorter of the two where they point to one side, else 0, give the round back:
+///   A(s) = A_i + f (A_{i+1} - A_i) + 4 f (1 - f) b_i,   f = (s - s_i) / L_i,
+///   A_i = V_i + (L_{i-1} L_i / 16) k_i,
+/// which lies half a sagitta inside the vertices and half a sagitta outside the chords. At the ends
+/// of a run k = 0. Block i is settled once block i + 1 is there, or none follows.
 class Polygon {
  public:
   struct Vertex {
     Vec3 at;         ///< V_i [mm]
     Vec3 direction;  ///< e_i, of the block that begins here; unit vector, zero at the last vertex
+    Vec3 aim;        ///< A_i [mm]
+    Vec3 bend;       ///< k_i [1/mm]
+    Vec3 bulge;      ///< b_i, of the block that begins here [mm]
     double s;        ///< arc length s_i [mm]
     double turn;     ///< angle between the blocks that meet here, nearly; 0 at both ends [rad]
   };
@@ -23,7 +34,7 @@ class Polygon {
   /// Appends a block; it must not end where it begins.
   void push(const Vec3& end);
   /// The turn at vertex i is none of the run's: it is an end of it.
-  void forget_turn(std::size_t i) noexcept { vertices_[i].turn = 0.0; }
+  void forget_turn(std::size_t i) noexcept;
   /// Forgets the vertices before index i.
   void drop_before(std::size_t i) { vertices_.drop_before(i); }
 
@@ -31,21 +42,8 @@ class Polygon {
   std::size_t first() const noexcept { return vertices_.begin_index(); }
   std::size_t last() const noexcept { return vertices_.end_index() - 1; }
 
-  /// V(s) on block i [mm].
-  Vec3 point(std::size_t i, double s) const noexcept {
-    return vertices_[i].at + (s - vertices_[i].s) * vertices_[i].direction;
-  }
-
-  /// Square of the height of the arc over block i that the turns at both of its ends suggest
-  /// [mm^2].
-  ///
-  /// A circle's chord of length L turns by theta = L / R at each end, and its arc is L theta / 8
-  /// high.
-  double bulge_squared(std::size_t i) const noexcept {
-    const double length = vertices_[i + 1].s - vertices_[i].s;
-    const double bulge = length * (vertices_[i].turn + vertices_[i + 1].turn) / 16.0;
-    return bulge * bulge;
-  }
+  /// A(s) on block i [mm].
+  Vec3 aim(std::size_t i, double s) const noexcept;
 
   /// Block that holds s, looked for from block i on, either way, among blocks `lowest` to
   /// `highest`.

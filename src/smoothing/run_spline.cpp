@@ -9,13 +9,12 @@
 namespace twin::smoothing {
 namespace {
 
-constexpr double kLongestSpan = 8.0;        // H_max [mm]
-constexpr double kShortestSpan = 1e-4;      // taken as it is [mm]
-constexpr std::size_t kMostBlocks = 512;    // in a span
-constexpr double kAhead = 4.0;              // known ahead of a knot, in spans
-constexpr double kShare = 0.1;              // of the tolerance, left by the local cubics
-constexpr double kBulgeShare = 4.0 / 45.0;  // mean square of a parabola's height about its mean
-constexpr double kLimit = 0.7;              // of the tolerance, a span's deviation
+constexpr double kLongestSpan = 8.0;      // H_max [mm]
+constexpr double kShortestSpan = 1e-4;    // taken as it is [mm]
+constexpr std::size_t kMostBlocks = 512;  // in a span
+constexpr double kAhead = 4.0;            // known ahead of a knot, in spans
+constexpr double kShare = 0.1;            // of the tolerance, left by the local cubics
+constexpr double kLimit = 0.7;            // of the tolerance, a span's deviation
 constexpr int kAttempts = 4;
 constexpr std::size_t kHeldSpans = 10;
 constexpr std::size_t kReach = 5;        // a span depends on knots to this many after its begin
@@ -67,8 +66,13 @@ void RunSpline::begin_at(std::size_t vertex) {
   spans_to_grow_ = 0;
 }
 
+/// The last vertex before which all blocks are settled.
+std::size_t RunSpline::last_vertex() const noexcept {
+  return is_closed_ ? end_vertex_ : std::max(polygon_.last() - 1, begin_vertex_);
+}
+
 Stretch RunSpline::stretch() const noexcept {
-  const std::size_t end = is_closed_ ? end_vertex_ : polygon_.last();
+  const std::size_t end = last_vertex();
   return {&polygon_, std::max(begin_vertex_, polygon_.first()), end - 1,
           polygon_[std::max(begin_vertex_, polygon_.first())].s, polygon_[end].s};
 }
@@ -123,22 +127,22 @@ double RunSpline::longest_span() const noexcept {
 
 bool RunSpline::can_march() const noexcept {
   const Knot& at = knots_.back();
-  return is_closed_ || polygon_[polygon_.last()].s >= at.s + kAhead * longest_span() ||
-         polygon_.last() - at.block > 4 * kMostBlocks;
+  return is_closed_ || polygon_[last_vertex()].s >= at.s + kAhead * longest_span() ||
+         last_vertex() - at.block > 4 * kMostBlocks;
 }
 
 /// Halves a span until it has no more than kMostBlocks blocks.
 double RunSpline::capped_by_blocks(double width) const noexcept {
   const Knot& at = knots_.back();
   const std::size_t farthest = at.block + kMostBlocks;
-  if (farthest < polygon_.last()) {
+  if (farthest < last_vertex()) {
     const double most = polygon_[farthest].s - at.s;
     while (width > most && width > kShortestSpan) {
       width *= 0.5;
     }
   }
   if (!is_closed_) {
-    const double known = polygon_[polygon_.last()].s - at.s;
+    const double known = polygon_[last_vertex()].s - at.s;
     while (kAhead * width > known && width > kShortestSpan) {
       width *= 0.5;
     }
@@ -157,8 +161,7 @@ double RunSpline::residual(double width) const noexcept {
     return std::numeric_limits<double>::infinity();
   }
   const double allowed = kShare * tolerance_;
-  return std::max(0.0, cubic.mean_square() - kBulgeShare * cubic.mean_bulge_squared()) /
-         (allowed * allowed);
+  return cubic.mean_square() / (allowed * allowed);
 }
 
 /// The next knot. Near a known end the spans divide what is left evenly.
@@ -328,7 +331,7 @@ void RunSpline::truncate(std::size_t last) {
 bool RunSpline::cut(std::size_t block) {
   const std::size_t given = spans_.begin_index();
   const std::size_t kept = given == 0 ? 0 : given + kReach - 1;
-  const std::size_t end = is_closed_ ? end_vertex_ : polygon_.last();
+  const std::size_t end = last_vertex();
   const auto turn = [&](std::size_t vertex) {
     const bool is_inside = vertex > begin_vertex_ && vertex < end &&
                            polygon_[vertex].s > knots_[kept].s + kShortestSpan;

@@ -43,7 +43,7 @@ class RunSink {
 /// The knots t_j march along the run. A span has the largest length H of H_max 2^-k, at most twice
 /// the last one (tried where it is likely to do, and at every fourth span), for which the cubic
 /// nearest to the polygon on [t - H, t + 2 H] leaves no more than kShare of the tolerance (root
-/// mean square, less what the chords themselves leave out of their arcs), and that turns by no more
+/// mean square), and that turns by no more
 /// than kMostTurn over H, for the curvature of a spline is right to a twelfth of the square of
 /// that. Since the window looks ahead and back, spans become short towards a tight place and long
 /// behind it.
@@ -81,6 +81,7 @@ class RunSpline {
     double deviation;
   };
 
+  std::size_t last_vertex() const noexcept;
   Stretch stretch() const noexcept;
   double run_end() const noexcept { return polygon_[end_vertex_].s; }
   double knot(std::ptrdiff_t j) const noexcept;
