@@ -14,6 +14,7 @@ namespace {
 constexpr double kBetweenSamples = 1.003;  // curvature between two samples over that at them
 constexpr double kSameLimit = 1.01;        // ratio of limits that share a zone
 constexpr double kValley = 0.5;            // of a bend's peak curvature, where it ends
+constexpr double kStraight = 0.01;         // of a bend's peak curvature, beside it
 constexpr int kArcParts = 48;              // of an arc, where axes have limits of their own
 
 PlanningModel with_circular_error(PlanningModel model, double error) {
@@ -100,7 +101,8 @@ void CertifiedLimits::take_intervals(const path::FittedCurve& curve) {
   for (std::size_t i = 1; i < curve.curvature.size(); ++i) {
     const nurbs::CurvatureSample& a = curve.curvature[i - 1];
     const nurbs::CurvatureSample& b = curve.curvature[i];
-    intervals_.push_back({a.s, b.s, kBetweenSamples * std::max(a.curvature, b.curvature), false});
+    intervals_.push_back(
+        {a.s, b.s, kBetweenSamples * std::max(a.curvature, b.curvature), false, false});
   }
 }
 
@@ -130,6 +132,7 @@ void CertifiedLimits::find_brief_bends() {
                           1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
     for (std::size_t i = begin; i < end; ++i) {
       intervals_[i].is_brief = is_brief;
+      intervals_[i].is_held = is_brief && i > begin && intervals_[i].curvature > kStraight * peak;
     }
     begin = end;
   }
@@ -157,6 +160,10 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
                                       interval.end - interval.begin),
                        limits_, zone);
     }
+    if (has_axis_limits_ && interval.is_held && zones.size() > first) {
+      zone.limit = std::min(zone.limit, zones.back().limit);
+      highest = zones.back().limit = zone.limit;
+    }
     append_zone(zone, first, highest, zones);
   }
 }
@@ -166,7 +173,7 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
   const auto* arc = std::get_if<path::Arc>(&segment.geometry);
   const Interval whole{0.0, segment.length,
                        std::max(segment.begin.curvature.norm(), segment.end.curvature.norm()),
-                       false};
+                       false, false};
   const double limit = limit_at(whole, feedrate, false);
   const int parts = arc != nullptr && has_axis_limits_ ? kArcParts : 1;
   const std::size_t first = zones.size();

@@ -25,6 +25,10 @@ namespace twin::feedrate {
 ///   (1 / cos(phi / 2) - 1) / kappa <= corner error.
 /// Bends are told apart where the curvature falls to half of its peak.
 ///
+/// Where axes have limits of their own, a brief bend is one zone with its lowest limit: little A
+/// and J is left in it, and as a valley it is passed at one feedrate, so that the ramps beside it
+/// need not do with that little.
+///
 /// The curvature of a FittedCurve is sampled four times on each interval of its arc length, and
 /// those are divided until |C'| varies by less than 4 % (nurbs/arc_length.hpp); then C' x C'', a
 /// polynomial of degree 2, and |C'|^2 are within 0.3 % of the larger end between two samples.
@@ -45,6 +49,7 @@ class CertifiedLimits {
     double end;
     double curvature;  // largest in it [1/mm]
     bool is_brief;
+    bool is_held;  // passed at one feedrate with the interval before it
   };
 
   double limit_at(const Interval& interval, double feedrate, bool is_fitted) const;
