@@ -9,7 +9,7 @@ namespace {
 constexpr double kPlaceRounding = 1e-9;       // [mm]
 constexpr double kSameFeedrate = 1.0 + 1e-9;  // ratio
 const Ascent kNoAscent;
-constexpr std::size_t kStepsPerZone = 8;      // after which there is no plan
+constexpr std::size_t kStepsPerZone = 8;  // after which there is no plan
 
 /// Whether a phase that rises passes a place faster than a limit.
 bool is_faster_rising(const Phase& phase, double s, double limit) {
@@ -207,8 +207,8 @@ bool Glide::resolve(Piece& piece, const Violation& violation, bool& is_split) {
   bool is_on_way_up = violation.leaves;
   bool is_on_way_down = violation.enters;
   if (violation.enters && violation.leaves) {
-    const double way_in = v < piece.a.v ? ramp_distance(piece.a.v, v, piece.ramp)
-                                        : piece.up->exit_at(v).distance;
+    const double way_in =
+        v < piece.a.v ? ramp_distance(piece.a.v, v, piece.ramp) : piece.up->exit_at(v).distance;
     const bool has_in = way_in <= room_up + kPlaceRounding;
     const bool has_out =
         v >= piece.b.v && piece.down->exit_at(v).distance <= room_down + kPlaceRounding;

@@ -39,7 +39,7 @@ class GlidePlanner final : public WindowPlanner {
   void commit(Window& window, const Cut& cut);
 
   RampLimits ramp_;
-  RampLimits least_{};  // of all zones of the window
+  RampLimits least_{};    // of all zones of the window
   double fastest_ = 0.0;  // limit of all of them [mm/s]
   Glide glide_;
   Ascent probe_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "feedrate/axis_limits.hpp"
 #include "feedrate/corner_limit.hpp"
 #include "feedrate/glide_planner.hpp"
 #include "feedrate/hump_planner.hpp"
@@ -29,6 +30,8 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const Pat
                      double period, Sink sink, Start start, double override_scale)
     : limits_(limits),
       rules_(limits, model, path, period),
+      certified_limits_(limits, model, path, period),
+      has_axis_limits_(has_axis_limits(limits)),
       is_certified_(path.planner == Planner::kCertified),
       look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
@@ -50,7 +53,7 @@ void LookAhead::push(path::Segment&& segment) {
   if (!window_.empty()) {
     junctions_.append(window_.back(), segment, length_, work_.zones);
   }
-  append_limits(segment);
+  take_limits(segment);
   length_ += segment.length;
   fastest_ = std::max(fastest_, asked_feedrate(segment));
   window_.push_back(std::move(segment));
@@ -69,19 +72,19 @@ double LookAhead::asked_feedrate(const path::Segment& segment) const {
 
 /// Appends the limits of a segment at the window's end. As far as the way from the start's feedrate
 /// down to the one asked for goes, the start's feedrate is asked for.
-void LookAhead::append_limits(const path::Segment& segment) {
+void LookAhead::take_limits(const path::Segment& segment) {
   const double asked = asked_feedrate(segment);
+  const std::size_t first = work_.zones.size();
   const double down =
       asked < start_of_plan_.v
           ? start_of_plan_.s + ramp_distance(start_of_plan_.v, asked, ramp_) - length_
           : 0.0;
   if (down > 0.0 && segment.length > 0.0) {
     const double border = length_ + std::min(down, segment.length);
-    const std::size_t first = work_.zones.size();
-    append_segment_limits(segment, length_, start_of_plan_.v, rules_, work_.zones);
+    append_limits(segment, start_of_plan_.v, work_.zones);
     std::erase_if(work_.zones, [&](const LimitZone& zone) { return zone.begin >= border; });
     asked_.clear();
-    append_segment_limits(segment, length_, asked, rules_, asked_);
+    append_limits(segment, asked, asked_);
     if (work_.zones.size() > first) {
       work_.zones.back().end = std::min(work_.zones.back().end, border);
     }
@@ -93,7 +96,53 @@ void LookAhead::append_limits(const path::Segment& segment) {
     }
     return;
   }
-  append_segment_limits(segment, length_, asked, rules_, work_.zones);
+  append_limits(segment, asked, work_.zones);
+  if (is_certified_ && first > 0 && first < work_.zones.size()) {
+    continue_zone(first);
+  }
+}
+
+void LookAhead::append_limits(const path::Segment& segment, double feedrate,
+                              std::vector<LimitZone>& zones) {
+  if (is_certified_) {
+    certified_limits_.append(segment, length_, feedrate, zones);
+  } else {
+    append_segment_limits(segment, length_, feedrate, rules_, zones);
+  }
+}
+
+/// Makes a zone part of the one before it, where that ends at the same place with the same limits.
+void LookAhead::continue_zone(std::size_t index) {
+  LimitZone& before = work_.zones[index - 1];
+  const LimitZone& zone = work_.zones[index];
+  if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
+      before.limit == zone.limit && before.acceleration == zone.acceleration &&
+      before.jerk == zone.jerk) {
+    before.end = zone.end;
+    work_.zones.erase(work_.zones.begin() + static_cast<std::ptrdiff_t>(index));
+  }
+}
+
+/// What is left of A and J to brake with from a segment on, as far as that may take.
+RampLimits LookAhead::brake_limits(std::size_t zone, double begin, double end) const {
+  RampLimits least{ramp_.acceleration, ramp_.jerk, ramp_.profile};
+  if (!has_axis_limits_ || !is_certified_) {
+    return least;
+  }
+  double fastest = 0.0;
+  for (; zone < work_.zones.size(); ++zone) {
+    const LimitZone& next = work_.zones[zone];
+    if (next.begin < end) {
+      fastest = std::max(fastest, next.limit);
+    } else if (next.begin > end + ramp_distance(fastest, 0.0, least)) {
+      break;
+    }
+    if (next.end > begin) {
+      least.acceleration = std::min(least.acceleration, next.acceleration);
+      least.jerk = std::min(least.jerk, next.jerk);
+    }
+  }
+  return least;
 }
 
 void LookAhead::finish() {
@@ -146,6 +195,7 @@ void LookAhead::emit_covered(bool is_last) {
     planned.index = next_index_++;
     window_.pop_front();
     const double end = begin + planned.segment.length;
+    planned.brake = brake_limits(next_zone, begin, end);
     take_phases(begin, end, next_phase, planned);
     for (; next_zone < work_.zones.size() && work_.zones[next_zone].end <= end + kPlaceRounding;
          ++next_zone) {
@@ -155,7 +205,6 @@ void LookAhead::emit_covered(bool is_last) {
     if (next_zone < work_.zones.size() && work_.zones[next_zone].begin < end - kPlaceRounding) {
       planned.limits.push_back(part_of(work_.zones[next_zone], begin, end));  // goes on after it
     }
-    planned.brake = ramp_;
     begin = end;
     sink_(std::move(planned));
   }

@@ -8,6 +8,7 @@
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
+#include "feedrate/certified_limits.hpp"
 #include "feedrate/feedrate_rule.hpp"
 #include "feedrate/junction_limits.hpp"
 #include "feedrate/planned_segment.hpp"
@@ -58,7 +59,10 @@ class LookAhead {
 
  private:
   double asked_feedrate(const path::Segment& segment) const;
-  void append_limits(const path::Segment& segment);
+  void take_limits(const path::Segment& segment);
+  void append_limits(const path::Segment& segment, double feedrate, std::vector<LimitZone>& zones);
+  void continue_zone(std::size_t index);
+  RampLimits brake_limits(std::size_t zone, double begin, double end) const;
   bool is_due() const;
   void wait_for_more();
   double horizon_margin() const;
@@ -70,6 +74,8 @@ class LookAhead {
 
   Limits limits_;
   FeedrateRules rules_;
+  CertifiedLimits certified_limits_;
+  bool has_axis_limits_;
   bool is_certified_;
   std::size_t look_ahead_;
   double period_;
