@@ -14,6 +14,12 @@ using Json = nlohmann::ordered_json;
 
 double rounded(double x) { return std::strtod(fmt::format("{:.6g}", x).c_str(), nullptr); }
 
+/// A figure as the table shows it: "-" for a certified deviation where the planner gives none.
+std::string shown(const FigureKind& kind, double value) {
+  const bool is_absent = kind.key == "certified_deviation_um" && value == 0.0;
+  return is_absent ? "-" : fmt::format("{:.{}f}", value, kind.decimals);
+}
+
 std::string percent(double share) { return fmt::format("{:.3g}", 100.0 * share); }
 
 }  // namespace
@@ -30,12 +36,9 @@ report::Grid grid_of_interpolators(const Comparison& comparison) {
   for (const FigureKind& kind : figure_kinds()) {
     report::Line line{std::string(kind.name), std::string(kind.unit), {}, {}};
     for (const Contestant& contestant : comparison.contestants) {
-      line.cells.push_back({fmt::format("{:.{}f}", kind.get(contestant), kind.decimals)});
+      line.cells.push_back({shown(kind, kind.get(contestant))});
     }
-    line.cells.push_back(
-        {kind.limit == nullptr
-             ? ""
-             : fmt::format("{:.{}f}", kind.limit(comparison.limits), kind.decimals)});
+    line.cells.push_back({kind.limit == nullptr ? "" : shown(kind, kind.limit(comparison.limits))});
     grid.lines.push_back(std::move(line));
   }
   return grid;
