@@ -8,6 +8,7 @@
 
 #include "core/limits.hpp"
 #include "metrics/limit_audit.hpp"
+#include "metrics/override_record.hpp"
 
 namespace twin::metrics {
 
@@ -86,11 +87,12 @@ struct Summary {
   double period = 0.001;     ///< [s]
   BlockFigures blocks;
   SegmentFigures segments;
-  double compression_factor = 0.0;     ///< blocks over segments [-]
-  double path_length = 0.0;            ///< [mm]
-  double planned_time = 0.0;           ///< [s]
-  ErrorFigures command_contour_error;  ///< set points against programmed path
-  ShareFigures feedrate_fluctuation;   ///< see FeedrateFluctuation
+  double compression_factor = 0.0;        ///< blocks over segments [-]
+  double path_length = 0.0;               ///< [mm]
+  double planned_time = 0.0;              ///< before running, without override [s]
+  std::vector<OverrideRecord> overrides;  ///< empty: its key is left out
+  ErrorFigures command_contour_error;     ///< set points against programmed path
+  ShareFigures feedrate_fluctuation;      ///< see FeedrateFluctuation
   AuditPeaks audit;
   std::optional<MachineFigures> run;  ///< absent for a plan; its keys are then left out
 };

@@ -50,6 +50,16 @@ Json audit_of(const AuditPeaks& audit) {
           {"axis", axes}};
 }
 
+Json overrides_of(const std::vector<OverrideRecord>& overrides) {
+  Json list = Json::array();
+  for (const OverrideRecord& change : overrides) {
+    list.push_back({{"asked_at_s", rounded(change.asked_at)},
+                    {"percent", rounded(change.percent)},
+                    {"from_s", rounded(change.from)}});
+  }
+  return list;
+}
+
 Json cycle_time_us(const CycleTimes& times) {
   return {{"p50", rounded(times.p50 * 1e6)},
           {"p99", rounded(times.p99 * 1e6)},
@@ -89,6 +99,9 @@ std::string to_json(const Summary& summary) {
   json["planned_time_s"] = rounded(summary.planned_time);
   if (summary.run) {
     json["machining_time_s"] = rounded(summary.run->machining_time);
+  }
+  if (!summary.overrides.empty()) {
+    json["override"] = overrides_of(summary.overrides);
   }
   json["command_contour_error_um"] = error_um(summary.command_contour_error);
   if (summary.run) {

@@ -6,13 +6,8 @@
 #include "path/builder.hpp"
 
 namespace twin::runtime {
-namespace {
 
-void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
-  const path::Segment& segment = planned.segment;
-  for (const feedrate::Phase& phase : planned.phases) {
-    figures.time += phase.duration;
-  }
+void count(const path::Segment& segment, PlanFigures& figures) {
   figures.path_length += segment.length;
   if (std::holds_alternative<path::Line>(segment.geometry)) {
     ++figures.lines;
@@ -30,20 +25,22 @@ void count(const feedrate::PlannedSegment& planned, PlanFigures& figures) {
   }
 }
 
-}  // namespace
-
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
   PlanFigures figures;
   bool goes_on = true;
   feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path, machine.period,
                                  [&](feedrate::PlannedSegment&& planned) {
-                                   count(planned, figures);
+                                   for (const feedrate::Phase& phase : planned.phases) {
+                                     figures.time += phase.duration;
+                                   }
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  const auto builder =
-      path::make_builder(machine.path, machine.planning, machine.limits,
-                         [&](path::Segment&& segment) { look_ahead.push(std::move(segment)); });
+  const auto builder = path::make_builder(machine.path, machine.planning, machine.limits,
+                                          [&](path::Segment&& segment) {
+                                            count(segment, figures);
+                                            look_ahead.push(std::move(segment));
+                                          });
   while (goes_on) {
     auto block = reader.next();
     if (!block) {

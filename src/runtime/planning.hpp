@@ -24,6 +24,9 @@ struct PlanFigures {
   std::int64_t fallbacks = 0;  ///< plans that could not be made and followed an earlier one
 };
 
+/// Counts a segment that the path builder has made.
+void count(const path::Segment& segment, PlanFigures& figures);
+
 /// The whole planning chain, text to planned segments: Reader, path::Builder, LookAhead.
 ///
 /// @param sink  takes each planned segment; returns false to stop
