@@ -4,13 +4,25 @@
 #include <cmath>
 #include <utility>
 
+#include "feedrate/axis_limits.hpp"
 #include "feedrate/corner_limit.hpp"
+#include "feedrate/glide_planner.hpp"
+#include "feedrate/hump_planner.hpp"
 #include "feedrate/segment_limits.hpp"
 
 namespace twin::feedrate {
 namespace {
 
-constexpr double kPlaceRounding = 1e-9;  // [mm]
+constexpr double kPlaceRounding = 1e-9;       // [mm]
+constexpr double kBrakingDistances = 4.0;     // longest ones, of path between two plans
+constexpr std::size_t kMostSegments = 16384;  // of the window; then it is planned to rest
+
+/// A zone within [begin, end], measured from begin.
+LimitZone part_of(LimitZone zone, double begin, double end) {
+  zone.begin = zone.begin < begin - kPlaceRounding ? 0.0 : zone.begin - begin;
+  zone.end = (zone.end > end + kPlaceRounding ? end : zone.end) - begin;
+  return zone;
+}
 
 }  // namespace
 
@@ -18,24 +30,34 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const Pat
                      double period, Sink sink, Start start, double override_scale)
     : limits_(limits),
       rules_(limits, model, path, period),
+      certified_limits_(limits, model, path, period),
+      has_axis_limits_(has_axis_limits(limits)),
+      is_certified_(path.planner == Planner::kCertified),
       look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
       sink_(std::move(sink)),
       start_of_plan_(start),
       override_scale_(override_scale),
-      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
-      envelope_(ramp_),
-      junctions_(limits, model, period),
-      start_{start.s, start.v} {}
+      ramp_{limits.acceleration, limits.jerk,
+            is_certified_ ? AccelerationProfile::kTrapezoidal : model.acceleration_profile},
+      junctions_(limits, model, period) {
+  work_.start = {start.s, start.v};
+  if (is_certified_) {
+    planner_ = std::make_unique<GlidePlanner>(ramp_);
+  } else {
+    planner_ = std::make_unique<HumpPlanner>(ramp_);
+  }
+}
 
 void LookAhead::push(path::Segment&& segment) {
   if (!window_.empty()) {
-    junctions_.append(window_.back(), segment, length_, zones_);
+    junctions_.append(window_.back(), segment, length_, work_.zones);
   }
-  append_limits(segment);
+  take_limits(segment);
   length_ += segment.length;
+  fastest_ = std::max(fastest_, asked_feedrate(segment));
   window_.push_back(std::move(segment));
-  if (window_.size() >= look_ahead_) {
+  if (is_due()) {
     plan(false);
   }
 }
@@ -50,31 +72,77 @@ double LookAhead::asked_feedrate(const path::Segment& segment) const {
 
 /// Appends the limits of a segment at the window's end. As far as the way from the start's feedrate
 /// down to the one asked for goes, the start's feedrate is asked for.
-void LookAhead::append_limits(const path::Segment& segment) {
+void LookAhead::take_limits(const path::Segment& segment) {
   const double asked = asked_feedrate(segment);
+  const std::size_t first = work_.zones.size();
   const double down =
       asked < start_of_plan_.v
           ? start_of_plan_.s + ramp_distance(start_of_plan_.v, asked, ramp_) - length_
           : 0.0;
   if (down > 0.0 && segment.length > 0.0) {
     const double border = length_ + std::min(down, segment.length);
-    const std::size_t first = zones_.size();
-    append_segment_limits(segment, length_, start_of_plan_.v, rules_, zones_);
-    std::erase_if(zones_, [&](const LimitZone& zone) { return zone.begin >= border; });
+    append_limits(segment, start_of_plan_.v, work_.zones);
+    std::erase_if(work_.zones, [&](const LimitZone& zone) { return zone.begin >= border; });
     asked_.clear();
-    append_segment_limits(segment, length_, asked, rules_, asked_);
-    if (zones_.size() > first) {
-      zones_.back().end = std::min(zones_.back().end, border);
+    append_limits(segment, asked, asked_);
+    if (work_.zones.size() > first) {
+      work_.zones.back().end = std::min(work_.zones.back().end, border);
     }
     for (LimitZone zone : asked_) {
       if (zone.end > border) {
         zone.begin = std::max(zone.begin, border);
-        zones_.push_back(zone);
+        work_.zones.push_back(zone);
       }
     }
     return;
   }
-  append_segment_limits(segment, length_, asked, rules_, zones_);
+  append_limits(segment, asked, work_.zones);
+  if (is_certified_ && first > 0 && first < work_.zones.size()) {
+    continue_zone(first);
+  }
+}
+
+void LookAhead::append_limits(const path::Segment& segment, double feedrate,
+                              std::vector<LimitZone>& zones) {
+  if (is_certified_) {
+    certified_limits_.append(segment, length_, feedrate, zones);
+  } else {
+    append_segment_limits(segment, length_, feedrate, rules_, zones);
+  }
+}
+
+/// Makes a zone part of the one before it, where that ends at the same place with the same limits.
+void LookAhead::continue_zone(std::size_t index) {
+  LimitZone& before = work_.zones[index - 1];
+  const LimitZone& zone = work_.zones[index];
+  if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
+      before.limit == zone.limit && before.acceleration == zone.acceleration &&
+      before.jerk == zone.jerk) {
+    before.end = zone.end;
+    work_.zones.erase(work_.zones.begin() + static_cast<std::ptrdiff_t>(index));
+  }
+}
+
+/// What is left of A and J to brake with from a segment on, as far as that may take.
+RampLimits LookAhead::brake_limits(std::size_t zone, double begin, double end) const {
+  RampLimits least{ramp_.acceleration, ramp_.jerk, ramp_.profile};
+  if (!has_axis_limits_ || !is_certified_) {
+    return least;
+  }
+  double fastest = 0.0;
+  for (; zone < work_.zones.size(); ++zone) {
+    const LimitZone& next = work_.zones[zone];
+    if (next.begin < end) {
+      fastest = std::max(fastest, next.limit);
+    } else if (next.begin > end + ramp_distance(fastest, 0.0, least)) {
+      break;
+    }
+    if (next.end > begin) {
+      least.acceleration = std::min(least.acceleration, next.acceleration);
+      least.jerk = std::min(least.jerk, next.jerk);
+    }
+  }
+  return least;
 }
 
 void LookAhead::finish() {
@@ -83,137 +151,37 @@ void LookAhead::finish() {
   }
 }
 
+/// Whether enough of the path has come since the last plan: with the certified planner some braking
+/// distances of it, however many segments those are.
+bool LookAhead::is_due() const {
+  if (!is_certified_) {
+    return window_.size() >= look_ahead_;
+  }
+  return length_ >= due_length_ || window_.size() >= due_segments_;
+}
+
+void LookAhead::wait_for_more() {
+  const double braking = longest_descent(fastest_, fastest_, ramp_);
+  due_length_ = length_ + kBrakingDistances * braking + horizon_margin();
+  due_segments_ = std::max(window_.size() + look_ahead_, kMostSegments / 4);
+}
+
+double LookAhead::horizon_margin() const { return kHidingPeriods * limits_.feedrate * period_; }
+
 /// Where a plan ends at rest: up to there no later corner lowers a limit any more.
 double LookAhead::horizon(bool is_last) const {
-  return is_last ? length_ : length_ - kHidingPeriods * limits_.feedrate * period_;
+  return is_last ? length_ : length_ - horizon_margin();
 }
 
 void LookAhead::plan(bool is_last) {
   const double last = horizon(is_last);
-  if (last <= start_.s + kPlaceRounding && !is_last) {
-    return;
+  if (last > work_.start.s + kPlaceRounding || is_last) {
+    const bool is_full = is_certified_ && window_.size() >= kMostSegments;
+    planner_->advance(work_, last, is_last || is_full);
+    fallbacks_ += is_full && !is_last ? 1 : 0;
+    emit_covered(is_last);
   }
-  while (!envelope_.plan(zones_until(last), start_, {last, 0.0})) {
-    if (plan_.empty() && start_.v > 0.0) {
-      if (!is_last) {
-        return;  // the window is too short to come to rest in
-      }
-      ++fallbacks_;
-      if (!raise_limits(last)) {
-        start_.v = 0.0;
-      }
-      continue;
-    }
-    ++fallbacks_;
-    if (start_.v == 0.0) {
-      plan_evenly(last);
-      break;
-    }
-    commit(plan_.front().b);  // a hump of the last plan, which leads to rest at worst
-  }
-  plan_ = envelope_.humps();
-  commit(commit_knot(last, is_last));
-  emit_covered(is_last);
-}
-
-/// Zones between the start and a place.
-std::span<const LimitZone> LookAhead::zones_until(double last) const {
-  const auto from = std::find_if(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
-    return zone.end > start_.s + kPlaceRounding;
-  });
-  const auto to = std::find_if(from, zones_.end(), [&](const LimitZone& zone) {
-    return zone.begin >= last - kPlaceRounding;
-  });
-  return {from, to};
-}
-
-/// From rest, under the lowest limit everywhere, a plan always exists.
-void LookAhead::plan_evenly(double last) {
-  const auto ahead = zones_until(last);
-  std::vector<LimitZone> even(ahead.begin(), ahead.end());
-  double lowest = limits_.feedrate;
-  for (const LimitZone& zone : even) {
-    lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
-  }
-  for (LimitZone& zone : even) {
-    zone.limit = std::min(zone.limit, lowest);
-  }
-  envelope_.plan(even, start_, {last, 0.0});
-}
-
-/// Raises the limits so far that a start which is too fast for them can come down; false where
-/// they have been raised already.
-bool LookAhead::raise_limits(double last) {
-  bool is_raised = false;
-  const double from = start_.s + kPlaceRounding;
-  const double to = std::min(last, start_.s + longest_descent(start_.v, start_.v, ramp_));
-  for (LimitZone& zone : zones_) {
-    if (zone.end > from && zone.begin < to && zone.limit > 0.0 && zone.limit < start_.v) {
-      zone.limit = start_.v;
-      is_raised = true;
-    }
-  }
-  return is_raised;
-}
-
-/// How far a knot may be moved on and still leave room to come down, with no acceleration, to any
-/// feedrate below a lower limit before `last`, and to any at all at `last`; negative where it is
-/// too far already.
-double LookAhead::room_after(const Knot& knot, double last) const {
-  const double longest = longest_descent(knot.v, knot.v, ramp_);
-  double room = last - knot.s - longest;
-  const auto from = std::partition_point(zones_.begin(), zones_.end(), [&](const LimitZone& zone) {
-    return zone.end <= knot.s + kPlaceRounding;
-  });
-  for (auto zone = from; zone != zones_.end() && zone->begin < knot.s + longest + room; ++zone) {
-    if (zone->limit < knot.v) {
-      const double down = longest_descent(knot.v, zone->limit, ramp_);
-      room = std::min(room, zone->begin - knot.s - down);
-    }
-  }
-  return room;
-}
-
-/// Last place of the plan that its end does not slow down: a knot at its own limit or a hold under
-/// a cap. Where there is none, the last peak; where not even that, the start, and the window grows.
-Knot LookAhead::commit_knot(double last, bool is_last) const {
-  if (is_last) {
-    return plan_.back().b;
-  }
-  Knot peak = start_;
-  for (std::size_t i = plan_.size(); i-- > 0;) {
-    const Hump& hump = plan_[i];
-    if (hump.b.is_at_limit && room_after(hump.b, last) >= -kPlaceRounding) {
-      return hump.b;
-    }
-    const double hold = hump.b.s - hump.down - hump.a.s - hump.up;
-    const Knot top{hump.a.s + hump.up, hump.peak};
-    const double room = room_after(top, last);
-    if (hold > kPlaceRounding && room > kPlaceRounding) {
-      return {top.s + std::min(hold, room), top.v};
-    }
-    if (peak.s == start_.s && room >= 0.0 && top.s > start_.s + kPlaceRounding) {
-      peak = top;
-    }
-  }
-  return peak;
-}
-
-void LookAhead::commit(Knot knot) {
-  std::size_t done = 0;
-  for (; done < plan_.size() && plan_[done].b.s <= knot.s + kPlaceRounding; ++done) {
-    append_phases(plan_[done], ramp_, phases_);
-  }
-  if (done < plan_.size() && knot.s > plan_[done].a.s + kPlaceRounding) {
-    Hump first = plan_[done];  // the knot lies at the end of its hold
-    first.b = knot;
-    first.down = 0.0;
-    append_phases(first, ramp_, phases_);
-    plan_[done].a = knot;
-    plan_[done].up = 0.0;
-  }
-  plan_.erase(plan_.begin(), plan_.begin() + static_cast<std::ptrdiff_t>(done));
-  start_ = knot;
+  wait_for_more();
 }
 
 void LookAhead::emit_covered(bool is_last) {
@@ -221,17 +189,21 @@ void LookAhead::emit_covered(bool is_last) {
   std::size_t next_phase = 0;
   std::size_t next_zone = 0;
   while (!window_.empty() &&
-         (is_last || begin + window_.front().length <= start_.s - kPlaceRounding)) {
+         (is_last || begin + window_.front().length <= work_.start.s - kPlaceRounding)) {
     PlannedSegment planned;
     planned.segment = std::move(window_.front());
     planned.index = next_index_++;
     window_.pop_front();
     const double end = begin + planned.segment.length;
+    planned.brake = brake_limits(next_zone, begin, end);
     take_phases(begin, end, next_phase, planned);
-    for (; next_zone < zones_.size() && zones_[next_zone].end <= end + kPlaceRounding;
+    for (; next_zone < work_.zones.size() && work_.zones[next_zone].end <= end + kPlaceRounding;
          ++next_zone) {
-      const LimitZone& zone = zones_[next_zone];
-      planned.limits.push_back({zone.begin - begin, zone.end - begin, zone.limit});
+      const LimitZone& zone = work_.zones[next_zone];
+      planned.limits.push_back(part_of(zone, begin, end));
+    }
+    if (next_zone < work_.zones.size() && work_.zones[next_zone].begin < end - kPlaceRounding) {
+      planned.limits.push_back(part_of(work_.zones[next_zone], begin, end));  // goes on after it
     }
     begin = end;
     sink_(std::move(planned));
@@ -244,16 +216,16 @@ void LookAhead::take_phases(double begin, double end, std::size_t& next, Planned
     planned.phases.push_back({planned.segment.dwell, 0.0, 0.0, 0.0, 0.0});
     return;
   }
-  for (; next < phases_.size(); ++next) {
-    Phase phase = phases_[next];
+  for (; next < work_.phases.size(); ++next) {
+    Phase phase = work_.phases[next];
     if (phase.s > end + kPlaceRounding) {
       break;  // the plan starts in a later segment
     }
     const bool crosses = motion_at(phase, phase.duration).s > end + kPlaceRounding;
     if (crosses) {
       const double t = time_at(phase, end);
-      phases_[next] = remainder_after(phase, t);
-      phases_[next].s = end;
+      work_.phases[next] = remainder_after(phase, t);
+      work_.phases[next].s = end;
       phase.duration = t;
     }
     phase.s -= begin;
@@ -266,21 +238,19 @@ void LookAhead::take_phases(double begin, double end, std::size_t& next, Planned
 
 /// Drops what was handed on and measures everything from the new window's start.
 void LookAhead::forget(double begin, std::size_t phases, std::size_t zones) {
-  phases_.erase(phases_.begin(), phases_.begin() + static_cast<std::ptrdiff_t>(phases));
-  zones_.erase(zones_.begin(), zones_.begin() + static_cast<std::ptrdiff_t>(zones));
-  for (Phase& phase : phases_) {
+  work_.phases.erase(work_.phases.begin(),
+                     work_.phases.begin() + static_cast<std::ptrdiff_t>(phases));
+  work_.zones.erase(work_.zones.begin(), work_.zones.begin() + static_cast<std::ptrdiff_t>(zones));
+  for (Phase& phase : work_.phases) {
     phase.s -= begin;
   }
-  for (LimitZone& zone : zones_) {
+  for (LimitZone& zone : work_.zones) {
     zone.begin -= begin;
     zone.end -= begin;
   }
   junctions_.forget(begin, zones);
-  for (Hump& hump : plan_) {
-    hump.a.s -= begin;
-    hump.b.s -= begin;
-  }
-  start_.s -= begin;
+  planner_->forget(begin);
+  work_.start.s -= begin;
   start_of_plan_.s -= begin;
   length_ -= begin;
 }

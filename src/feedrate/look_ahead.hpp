@@ -3,32 +3,31 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
-#include "feedrate/envelope.hpp"
+#include "feedrate/certified_limits.hpp"
 #include "feedrate/feedrate_rule.hpp"
 #include "feedrate/junction_limits.hpp"
 #include "feedrate/planned_segment.hpp"
+#include "feedrate/window_planner.hpp"
 
 namespace twin::feedrate {
 
 /// Look-ahead: segments in, segments with feedrate out.
 ///
-/// It keeps a window of up to `look_ahead` segments whose feedrate is not settled, plans them so
-/// that the path could end at rest at the horizon, just before the window's end, and settles the
-/// part that more segments would not change:
+/// It keeps a window of segments whose feedrate is not settled, plans them so that the path could
+/// end at rest at the horizon, just before the window's end, and settles the part that more
+/// segments would not change:
 ///
 ///   settled | start ....... window ....... commit | braking to rest at the horizon | limits open
-///           ^ knot of the last plan               ^ last knot or hold that the end does not slow
-///           down
+///           ^ end of what the last plan settled   ^ last place that the end does not slow down
 ///
 /// Beyond the horizon a corner that is not known yet may still lower the limit of one that is; up
-/// to it all limits are final. From the committed knot any feedrate can be reached with no
-/// acceleration before the horizon, so the next plan can put its knots where it needs them. Should
-/// one fail all the same, humps of the last one are taken, which only costs time. The result
+/// to it all limits are final. How the window is planned and what of it is settled is the
+/// WindowPlanner's: HumpPlanner with planner = paper, GlidePlanner with certified. The result
 /// depends on the segments alone, not on when they arrive.
 class LookAhead {
  public:
@@ -44,7 +43,8 @@ class LookAhead {
   /// limits of the path itself are kept all the same. The phases of the first segment begin at its
   /// place.
   ///
-  /// @param path            path.look_ahead segments, at least 2, are in the window
+  /// @param path            with planner = paper path.look_ahead segments, at least 2, are in the
+  ///                        window; with certified some braking distances of path
   /// @param period          interpolation period, for the feedrates of corners and chords [s]
   /// @param override_scale  of programmed feedrates, > 0; rapids take no more than 1 of it [-]
   LookAhead(const Limits& limits, const PlanningModel& model, const PathSettings& path,
@@ -55,41 +55,44 @@ class LookAhead {
   void finish();
 
   /// How often a plan could not be made as wanted.
-  std::int64_t fallbacks() const noexcept { return fallbacks_; }
+  std::int64_t fallbacks() const noexcept { return fallbacks_ + planner_->fallbacks(); }
 
  private:
   double asked_feedrate(const path::Segment& segment) const;
-  void append_limits(const path::Segment& segment);
+  void take_limits(const path::Segment& segment);
+  void append_limits(const path::Segment& segment, double feedrate, std::vector<LimitZone>& zones);
+  void continue_zone(std::size_t index);
+  RampLimits brake_limits(std::size_t zone, double begin, double end) const;
+  bool is_due() const;
+  void wait_for_more();
+  double horizon_margin() const;
   double horizon(bool is_last) const;
   void plan(bool is_last);
-  std::span<const LimitZone> zones_until(double last) const;
-  void plan_evenly(double last);
-  bool raise_limits(double last);
-  double room_after(const Knot& knot, double last) const;
-  Knot commit_knot(double last, bool is_last) const;
-  void commit(Knot knot);
   void emit_covered(bool is_last);
   void take_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
   void forget(double begin, std::size_t phases, std::size_t zones);
 
   Limits limits_;
   FeedrateRules rules_;
+  CertifiedLimits certified_limits_;
+  bool has_axis_limits_;
+  bool is_certified_;
   std::size_t look_ahead_;
   double period_;
   Sink sink_;
   Start start_of_plan_;
   double override_scale_;
   RampLimits ramp_;
-  Envelope envelope_;
+  std::unique_ptr<WindowPlanner> planner_;
   JunctionLimits junctions_;
 
   std::deque<path::Segment> window_;  // not yet handed on; window_[0] begins at s = 0
-  std::vector<LimitZone> zones_;      // of the window
+  Window work_;                       // measured as it is
   std::vector<LimitZone> asked_;      // of one segment, kept for its memory
-  std::vector<Hump> plan_;            // last feasible plan from start_ to rest
-  std::vector<Phase> phases_;         // settled and not yet handed on
-  Knot start_;                        // where the next plan starts
   double length_ = 0.0;               // of the window [mm]
+  double fastest_ = 0.0;              // feedrate asked for so far [mm/s]
+  double due_length_ = 0.0;           // of the window at the next plan [mm]
+  std::size_t due_segments_ = 0;      // in the window at the next plan
   std::int64_t next_index_ = 0;
   std::int64_t fallbacks_ = 0;
 };

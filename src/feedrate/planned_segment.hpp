@@ -5,6 +5,7 @@
 
 #include "feedrate/limit_zone.hpp"
 #include "feedrate/phase.hpp"
+#include "feedrate/ramp_limits.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
@@ -16,6 +17,7 @@ struct PlannedSegment {
   std::int64_t plan = 0;          ///< plan of the path that it is of, counted from 0
   std::vector<Phase> phases;      ///< cover [0, segment.length]; s from the segment's start
   std::vector<LimitZone> limits;  ///< feedrate limits, s from the segment's start
+  RampLimits brake;               ///< with which it may brake from here until it rests
 };
 
 }  // namespace twin::feedrate

@@ -6,8 +6,8 @@ namespace twin::feedrate {
 
 /// Bounds of a change of feedrate, and how it is made within them.
 struct RampLimits {
-  double acceleration;  ///< A_max > 0 [mm/s^2]
-  double jerk;          ///< J_max > 0 [mm/s^3]
+  double acceleration = 0.0;  ///< A_max > 0 [mm/s^2]
+  double jerk = 0.0;          ///< J_max > 0 [mm/s^3]
   AccelerationProfile profile = AccelerationProfile::kTrapezoidal;
 };
 
@@ -19,10 +19,10 @@ struct RampLimits {
 ///      |___/____________\____ t
 ///          rise        rise
 struct RampShape {
-  double rise;          ///< time of each phase of jerk [s]
-  double gain;          ///< change of feedrate in each of them [mm/s]
-  double jerk;          ///< in them [mm/s^3]
-  double acceleration;  ///< between them [mm/s^2]
+  double rise;                ///< time of each phase of jerk [s]
+  double gain;                ///< change of feedrate in each of them [mm/s]
+  double jerk = 0.0;          ///< in them [mm/s^3]
+  double acceleration = 0.0;  ///< between them [mm/s^2]
 };
 
 }  // namespace twin::feedrate

@@ -157,10 +157,19 @@ void Interpolator::brake(const feedrate::RampLimits& limits) noexcept {
     is_done_ = true;
     return;
   }
-  brake_ = feedrate::make_brake(motion(), limits);
+  brake_ = brake_from_here(limits);
   time_ = 0.0;
   is_between_ = false;
   mode_ = Mode::kBrake;
+}
+
+feedrate::Brake Interpolator::brake_from_here(feedrate::RampLimits limits) const noexcept {
+  const feedrate::RampLimits& planned = current_->brake;
+  if (planned.acceleration > 0.0) {
+    limits.acceleration = std::min(limits.acceleration, planned.acceleration);
+    limits.jerk = std::min(limits.jerk, planned.jerk);
+  }
+  return feedrate::make_brake(motion(), limits);
 }
 
 bool Interpolator::arm(const PlanSwitch& at) noexcept {
@@ -204,7 +213,7 @@ double Interpolator::distance() const noexcept {
 }
 
 double Interpolator::braking_distance(const feedrate::RampLimits& limits) const noexcept {
-  return current_ == nullptr ? 0.0 : feedrate::make_brake(motion(), limits).distance;
+  return current_ == nullptr ? 0.0 : brake_from_here(limits).distance;
 }
 
 feedrate::PathMotion Interpolator::motion() const noexcept {

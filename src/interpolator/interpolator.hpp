@@ -81,7 +81,8 @@ class Interpolator {
   /// The set point of the next period; the first call gives the path's first place. Real-time safe.
   Status step(SetPoint& out) noexcept;
 
-  /// From the next period on, brake on the path. Real-time safe.
+  /// From the next period on, brake on the path, within these limits and those that the planner
+  /// leaves for braking. Real-time safe.
   void brake(const feedrate::RampLimits& limits) noexcept;
   bool is_braking() const noexcept { return mode_ == Mode::kBrake; }
   bool is_at_rest() const noexcept { return mode_ == Mode::kRest; }
@@ -119,6 +120,7 @@ class Interpolator {
   Status advance_plan(double dt) noexcept;
   Status advance_brake(double dt) noexcept;
   feedrate::PathMotion motion() const noexcept;
+  feedrate::Brake brake_from_here(feedrate::RampLimits limits) const noexcept;
   void put_place(SetPoint& out) noexcept;
   void mark_place(double s, SetPoint& out) noexcept;
   path::PathPoint locate(const feedrate::PathMotion& motion) noexcept;

@@ -45,10 +45,12 @@ void read_only(benchmark::State& state) {
   count_blocks(state);
 }
 
-void read_to_planned(benchmark::State& state, double block_length, CurveKind curves) {
+void read_to_planned(benchmark::State& state, double block_length, CurveKind curves,
+                     Planner planner = Planner::kPaper) {
   const std::string text = wavy_program(state.range(0), block_length);
   config::MachineFile machine;
   machine.path.curves = curves;
+  machine.path.planner = planner;
   for (auto _ : state) {
     gcode::Reader reader = gcode::Reader::from_text(text, "bench.nc");
     auto figures = plan_program(reader, machine, [](feedrate::PlannedSegment&& planned) {
@@ -71,6 +73,15 @@ BENCHMARK_CAPTURE(read_to_planned, curves_0_02_mm, 0.02, CurveKind::kNurbs)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_to_planned, lines_0_26_mm, 0.26, CurveKind::kNone)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+
+BENCHMARK_CAPTURE(read_to_planned, certified_0_26_mm, 0.26, CurveKind::kNurbs, Planner::kCertified)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, certified_lines_0_26_mm, 0.26, CurveKind::kNone,
+                  Planner::kCertified)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
 

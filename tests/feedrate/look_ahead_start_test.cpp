@@ -12,8 +12,8 @@ using path::testing::line_block;
 
 constexpr double kTau50 = 0.0632455532033676;  // 2 sqrt(50 / 50000), ramp between 0 and 50 mm/s [s]
 
-double time_of(const std::vector<gcode::Block>& blocks, LookAhead::Start start, double scale,
-               std::vector<Phase>* phases = nullptr) {
+double time_with(Planner planner, const std::vector<gcode::Block>& blocks, LookAhead::Start start,
+                 double scale, std::vector<Phase>* phases) {
   double time = 0.0;
   const auto sink = [&](PlannedSegment&& planned) {
     for (const Phase& phase : planned.phases) {
@@ -23,12 +23,22 @@ double time_of(const std::vector<gcode::Block>& blocks, LookAhead::Start start, 
       }
     }
   };
-  LookAhead look_ahead({}, {}, {}, 1e-3, sink, start, scale);
+  PathSettings path;
+  path.planner = planner;
+  LookAhead look_ahead({}, {}, path, 1e-3, sink, start, scale);
   for (path::Segment& segment : build(blocks)) {
     look_ahead.push(std::move(segment));
   }
   look_ahead.finish();
   EXPECT_EQ(look_ahead.fallbacks(), 0);
+  return time;
+}
+
+/// By both planners, which agree on lines.
+double time_of(const std::vector<gcode::Block>& blocks, LookAhead::Start start, double scale,
+               std::vector<Phase>* phases = nullptr) {
+  const double time = time_with(Planner::kPaper, blocks, start, scale, phases);
+  EXPECT_NEAR(time_with(Planner::kCertified, blocks, start, scale, nullptr), time, 1e-8);
   return time;
 }
 
@@ -72,6 +82,32 @@ TEST(LookAheadStart, NoScaleExceedsTheMachinesFeedrate) {
   const std::vector<gcode::Block> fast{line_block({0, 0, 0}, {190, 0, 0}, 150.0)};
   const std::vector<gcode::Block> fastest{line_block({0, 0, 0}, {190, 0, 0}, 200.0)};
   EXPECT_EQ(time_of(fast, {0.0, 0.0}, 2.0), time_of(fastest, {0.0, 0.0}, 1.0));
+}
+
+TEST(LookAheadStart, AStartThatIsTooFastForTheBendAheadComesDownAndIsCounted) {
+  for (const Planner planner : {Planner::kPaper, Planner::kCertified}) {
+    PathSettings path;
+    path.planner = planner;
+    double length = 0.0;
+    PathMotion at{0.0, 50.0, 0.0};
+    const auto sink = [&](PlannedSegment&& planned) {
+      for (const Phase& phase : planned.phases) {
+        EXPECT_NEAR(phase.v, at.v, 1e-6);
+        EXPECT_LE(std::abs(phase.j), 50000.0 * 1.001);
+        at = motion_at(phase, phase.duration);
+      }
+      length += planned.segment.length;
+    };
+    LookAhead look_ahead({}, {}, path, 1e-3, sink, {9.9, 50.0});
+    for (path::Segment& segment :
+         build({line_block({0, 0, 0}, {10, 0, 0}), line_block({10, 0, 0}, {10, 30, 0})})) {
+      look_ahead.push(std::move(segment));
+    }
+    look_ahead.finish();
+    EXPECT_EQ(length, 40.0);
+    EXPECT_NEAR(at.v, 0.0, 1e-6);
+    EXPECT_GT(look_ahead.fallbacks(), 0);
+  }
 }
 
 }  // namespace

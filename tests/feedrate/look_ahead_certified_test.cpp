@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "tests/feedrate/motion_profile.hpp"
+#include "tests/feedrate/plan.hpp"
+#include "tests/feedrate/random_program.hpp"
+#include "tests/path/blocks.hpp"
+
+namespace twin::feedrate {
+namespace {
+
+using path::testing::line_block;
+using testing::expect_whole;
+using testing::plan;
+using testing::PlanSettings;
+using testing::random_program;
+
+PlanSettings certified() {
+  PlanSettings settings;
+  settings.path.planner = Planner::kCertified;
+  return settings;
+}
+
+TEST(LookAheadCertified, RandomProgramsArePlannedWholeAndNoSlowerThanByThePaper) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 400; ++i) {
+    const auto segments = path::testing::build(random_program(random, 25));
+    const auto planned = plan(segments, certified());
+    ASSERT_EQ(planned.segments.size(), segments.size());
+    ASSERT_NO_FATAL_FAILURE(expect_whole(planned, {})) << "program " << i;
+    EXPECT_EQ(planned.fallbacks, 0) << "program " << i;
+    EXPECT_LE(planned.time, plan(segments).time * 1.002) << "program " << i;
+  }
+}
+
+TEST(LookAheadCertified, RandomProgramsArePlannedWholeWithinOtherLimits) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const auto blocks = random_program(random, 25);
+    for (const auto& [acceleration, jerk] :
+         {std::pair{300.0, 2e3}, {2e4, 1e6}, {500.0, 1e6}, {2450.0, 1e9}, {1e6, 1e3}, {5.0, 5.0}}) {
+      PlanSettings settings = certified();
+      settings.limits.acceleration = acceleration;
+      settings.limits.jerk = jerk;
+      const auto planned = plan(blocks, settings);
+      ASSERT_NO_FATAL_FAILURE(expect_whole(planned, settings.limits))
+          << "program " << i << " a " << acceleration << " j " << jerk;
+      EXPECT_EQ(planned.fallbacks, 0) << "program " << i << " a " << acceleration << " j " << jerk;
+    }
+  }
+}
+
+TEST(LookAheadCertified, ALineTakesAsLongInAnyNumberOfPieces) {
+  for (const double feedrate : {0.1, 50.0, 200.0}) {
+    const double length = std::min(100.0, 20.0 * feedrate);
+    const double uncut = plan({line_block({0, 0, 0}, {length, 0, 0}, feedrate)}, certified()).time;
+    for (const int count : {10, 2000, 20000}) {
+      std::vector<path::Segment> lines;
+      for (int i = 0; i < count; ++i) {
+        const double step = length / count;
+        lines.push_back(path::make_segment(
+            line_block({step * i, 0, 0}, {step * (i + 1), 0, 0}, feedrate), 0, {}, {}));
+      }
+      const auto planned = plan(lines, certified());
+      EXPECT_NEAR(planned.time, uncut, 1e-4) << feedrate << " mm/s in " << count;
+      EXPECT_EQ(planned.fallbacks, 0) << feedrate << " mm/s in " << count;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace twin::feedrate
