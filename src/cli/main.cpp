@@ -10,19 +10,25 @@
 
 #include "cli/commands.hpp"
 #include "cli/usage.hpp"
+#include "control/terminal.hpp"
 
 namespace {
 
 std::atomic<bool> stop_requested{false};
 
-extern "C" void request_stop(int /*signal*/) { stop_requested.store(true); }
-
 /// The first signal brakes on the path and keeps the results; a second one ends the process as
-/// usual.
+/// usual, with the terminal as it was.
+extern "C" void request_stop(int signal) {
+  if (stop_requested.exchange(true)) {
+    twin::control::RawTerminal::restore();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
 void watch_signals() {
   struct sigaction action {};
   action.sa_handler = request_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     sigaction(signal, &action, nullptr);
   }

@@ -85,6 +85,22 @@ void add_rig_options(CLI::App& command, Options& options, bool can_move) {
       ->type_name("FILE");
 }
 
+void add_override_option(CLI::App& command, Options& options) {
+  command
+      .add_option("--override", options.overrides,
+                  "Change the feed override while moving, as in 0:100,2:50,3.5:0,5:150: seconds "
+                  "since the first set point, percent of the programmed feedrate (0 holds)")
+      ->type_name("S:PERCENT,...");
+}
+
+void add_control_option(CLI::App& command, Options& options) {
+  command
+      .add_option("--control", options.control,
+                  "On the wall clock: listen at a Unix domain socket of this name for override "
+                  "PERCENT, hold, resume, status (you alone may connect)")
+      ->type_name("PATH");
+}
+
 void add_axis_option(CLI::App& command, Options& options) {
   command.add_option("--axis", options.axis, "Axis")
       ->required()

@@ -28,10 +28,12 @@ struct Options {
   std::filesystem::path rig_log;    ///< events at the emulated boards; empty: none
   std::vector<std::string> faults;  ///< injected into emulated boards: KIND[:AXIS]@SECONDS
   bool i_know_it_moves = false;
-  std::string axis;             ///< x or y, of rig jog and rig home
-  double distance_mm = 0.0;     ///< of rig jog
-  std::optional<double> for_s;  ///< how long rig monitor and rig emulate run
-  int repeats = 10;             ///< of the runs of reproduce, with other phases
+  std::string axis;               ///< x or y, of rig jog and rig home
+  double distance_mm = 0.0;       ///< of rig jog
+  std::optional<double> for_s;    ///< how long rig monitor and rig emulate run
+  int repeats = 10;               ///< of the runs of reproduce, with other phases
+  std::string overrides;          ///< seconds:percent, ...
+  std::filesystem::path control;  ///< control socket; empty: none
   bool video = false;
   bool no_plots = false;
   bool realtime = false;
@@ -56,6 +58,10 @@ void add_axis_option(CLI::App& command, Options& options);
 void add_fault_option(CLI::App& command, Options& options);
 /// --rig, --rig-name, and with motion --i-know-it-moves, --fault, --rig-log.
 void add_rig_options(CLI::App& command, Options& options, bool can_move);
+/// --override.
+void add_override_option(CLI::App& command, Options& options);
+/// --control.
+void add_control_option(CLI::App& command, Options& options);
 /// --out, --no-plots, --quiet. @param folder  below renders, where results go without --out
 void add_result_options(CLI::App& command, Options& options, const std::string& folder = "PROGRAM");
 /// --video and --camera.

@@ -35,6 +35,11 @@ void Progress::show(double share) {
   std::fflush(stderr);
 }
 
+void Progress::rename(std::string what) {
+  what_ = std::move(what);
+  show(0.0);
+}
+
 std::function<void(double)> Progress::callback() {
   return [this](double share) { show(share); };
 }

@@ -15,6 +15,8 @@ class Progress {
 
   /// @param share  what is done, 0 to 1
   void show(double share);
+  /// Changes what stands before the bar, and shows that nothing is done yet.
+  void rename(std::string what);
   /// show() as a function object.
   std::function<void(double)> callback();
 

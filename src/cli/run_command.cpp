@@ -5,12 +5,40 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "config/find_file.hpp"
+#include "control/operator_station.hpp"
 #include "metrics/summary.hpp"
 #include "runtime/program_bound.hpp"
 #include "runtime/run.hpp"
 
 namespace twin::cli {
 namespace {
+
+/// Runs with a progress bar, and on the wall clock with what an operator needs.
+Expected<runtime::RunResult> run_with_operator(const Options& options,
+                                               runtime::RunRequest& request) {
+  runtime::OperatorPanel panel;
+  std::unique_ptr<control::OperatorStation> station;
+  if (request.is_wall_clock) {
+    auto opened = control::OperatorStation::open(
+        {.socket = options.control, .shows_status = !options.quiet}, panel);
+    if (!opened) {
+      return tl::unexpected(opened.error());
+    }
+    station = std::move(*opened);
+    request.panel = &panel;
+  } else if (!options.control.empty()) {
+    return fail(ErrorCode::kUsage,
+                "--control is for runs on the wall clock: --realtime or --hal rig; in simulated "
+                "time there is --override");
+  }
+  const bool is_shown = station != nullptr && station->shows_status();
+  Progress progress(request.hal != nullptr ? "machining" : "planning", options.quiet || is_shown);
+  request.progress = progress.callback();
+  request.estimated = [&progress](double time) {
+    progress.rename(fmt::format("machining, {:.1f} s", time));
+  };
+  return runtime::run_program(request);
+}
 
 /// run and plan differ in the machine alone: null plans only.
 Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bool has_machine) {
@@ -21,6 +49,14 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   auto program = config::find_program(options.programs.front());
   if (!program) {
     return tl::unexpected(program.error());
+  }
+  std::vector<runtime::OverrideChange> overrides;
+  if (!options.overrides.empty()) {
+    auto schedule = runtime::parse_override_schedule(options.overrides);
+    if (!schedule) {
+      return tl::unexpected(schedule.error());
+    }
+    overrides = std::move(*schedule);
   }
   std::unique_ptr<hal::Machine> hal;
   if (has_machine) {
@@ -38,12 +74,8 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   request.directory = result_folder(options, *program);
   request.is_wall_clock = options.realtime || (hal && hal->info().keeps_own_time);
   request.stop = &stop;
-  Expected<runtime::RunResult> result;
-  {
-    Progress progress(has_machine ? "machining" : "planning", options.quiet);
-    request.progress = progress.callback();
-    result = runtime::run_program(request);
-  }
+  request.overrides = std::move(overrides);
+  auto result = run_with_operator(options, request);
   if (!result) {
     return tl::unexpected(result.error());
   }
@@ -95,9 +127,12 @@ Command add_run(const CommandContext& context) {
   add_program_options(*app, options);
   add_machine_options(*app, options);
   add_interpolator_option(*app, options);
+  add_override_option(*app, options);
   add_hal_option(*app, options, true);
   add_rig_options(*app, options, true);
-  app->add_flag("--realtime", options.realtime, "Keep to the wall clock");
+  app->add_flag("--realtime", options.realtime,
+                "Keep to the wall clock; keys: + - 0 to 9 feed override, space feed hold");
+  add_control_option(*app, options);
   add_result_options(*app, options);
   add_video_options(*app, options);
   return {app, [&options, &stop = context.stop] { return execute(options, stop, true); }};
@@ -112,6 +147,7 @@ Command add_plan(const CommandContext& context) {
   add_interpolator_option(*app, options);
   app->add_flag("--bound", options.bound,
                 "The lower bound of the time as well: the same path without jerk limit");
+  add_override_option(*app, options);
   add_result_options(*app, options);
   return {app, [&options, &stop = context.stop] { return execute(options, stop, false); }};
 }

@@ -218,6 +218,9 @@ void LookAhead::take_phases(double begin, double end, std::size_t& next, Planned
   }
   for (; next < work_.phases.size(); ++next) {
     Phase phase = work_.phases[next];
+    if (phase.s > end + kPlaceRounding) {
+      break;  // the plan starts in a later segment
+    }
     const bool crosses = motion_at(phase, phase.duration).s > end + kPlaceRounding;
     if (crosses) {
       const double t = time_at(phase, end);

@@ -5,7 +5,6 @@
 namespace twin::interpolator {
 namespace {
 
-constexpr double kResumeTime = 1.0;     // from rest back to the plan's full rate [s]
 constexpr double kRestRounding = 1e-6;  // place where braking ends [mm]
 
 }  // namespace
@@ -16,22 +15,37 @@ Interpolator::~Interpolator() {
   }
 }
 
+/// Takes the next segment. Where another plan goes on inside a segment, it is the same piece of
+/// path again.
 bool Interpolator::fetch() noexcept {
   const feedrate::PlannedSegment* next = source_.next();
   if (next == nullptr) {
     return false;
   }
+  const bool is_same = current_ != nullptr && current_->index == next->index;
   if (current_ != nullptr) {
+    passed_ += is_same ? 0.0 : current_->segment.length;
     source_.release(current_);
   }
   current_ = next;
-  mark_ = 0;
   zone_ = 0;
+  if (is_same) {
+    return true;
+  }
+  mark_ = 0;
   elapsed_ = 0.0;
   has_landed_ = false;
   const auto& phases = current_->phases;
   follower_.enter(phases.empty() ? feedrate::PathMotion{} : feedrate::motion_at(phases[0], 0.0));
   return true;
+}
+
+/// The plan that was armed is the one to follow.
+void Interpolator::take_over() noexcept {
+  between_ = feedrate::motion_at(current_->phases[armed_->phase], armed_->time);
+  plan_ = armed_->plan;
+  armed_.reset();
+  source_.adopt(plan_);
 }
 
 Status Interpolator::step(SetPoint& out) noexcept {
@@ -45,23 +59,14 @@ Status Interpolator::step(SetPoint& out) noexcept {
     if (!fetch()) {
       return source_.is_finished() ? Status::kDone : Status::kStarved;
     }
-    place(out);
+    put_place(out);
     return Status::kMoving;
   }
-  double dt = is_waiting_ ? 0.0 : period_;
-  if (mode_ == Mode::kPlan && rate_time_ >= 0.0 && !is_waiting_) {
-    rate_time_ += period_;
-    const double x = std::min(rate_time_ / kResumeTime, 1.0);
-    const double before = rate_;
-    rate_ = x * x * (3.0 - 2.0 * x);
-    rate_change_ = 6.0 * x * (1.0 - x) / kResumeTime;
-    dt *= 0.5 * (before + rate_);
-    rate_time_ = x < 1.0 ? rate_time_ : -1.0;
-  }
+  const double dt = is_waiting_ ? 0.0 : period_;
   const Status status = mode_ == Mode::kBrake ? advance_brake(dt) : advance_plan(dt);
   is_waiting_ = status == Status::kStarved;
   if (status == Status::kMoving) {
-    place(out);
+    put_place(out);
   }
   return status;
 }
@@ -81,8 +86,12 @@ Status Interpolator::advance_plan(double dt) noexcept {
   pending_ += dt;
   elapsed_ = 0.0;
   for (;;) {
-    for (; phase_ < current_->phases.size(); ++phase_) {
-      const double left = current_->phases[phase_].duration - time_;
+    const std::size_t count = is_between_   ? 0
+                              : ends_here() ? armed_->phase + 1
+                                            : current_->phases.size();
+    for (; phase_ < count; ++phase_) {
+      const bool is_cut = ends_here() && phase_ == armed_->phase;
+      const double left = (is_cut ? armed_->time : current_->phases[phase_].duration) - time_;
       if (pending_ < left) {
         time_ += pending_;
         elapsed_ += pending_;
@@ -93,53 +102,51 @@ Status Interpolator::advance_plan(double dt) noexcept {
       elapsed_ += left;
       time_ = 0.0;
     }
-    if (lands_here()) {
+    if (ends_here()) {
+      take_over();
+      is_between_ = true;
+    } else if (!is_between_ && lands_here()) {
       return Status::kMoving;
     }
     if (!fetch()) {
       is_done_ = source_.is_finished();
       return is_done_ ? Status::kMoving : Status::kStarved;
     }
+    is_between_ = false;
     phase_ = 0;
   }
 }
 
 Status Interpolator::advance_brake(double dt) noexcept {
-  time_ = std::min(time_ + dt, brake_.duration);
+  time_ = std::min(time_ + pending_ + dt, brake_.duration);
+  pending_ = 0.0;
   // Where the plan rests at the segment's end, so does braking, but for rounding.
   const auto rests_here = [this] {
     return brake_.phases.front().s + brake_.distance <= current_->segment.length + kRestRounding;
   };
   for (double s = motion().s; s > current_->segment.length && !rests_here(); s = motion().s) {
+    const std::int64_t index = current_->index;
     const double length = current_->segment.length;
+    if (ends_here()) {
+      take_over();
+    }
     if (!fetch()) {
       is_done_ = source_.is_finished();  // rest falls on the path's end, beyond it by rounding
       return is_done_ ? Status::kMoving : Status::kStarved;
     }
-    phase_ = 0;
+    if (current_->index == index) {
+      continue;
+    }
     for (feedrate::Phase& phase : brake_.phases) {
       phase.s -= length;
     }
   }
   if (time_ >= brake_.duration) {
-    rejoin_plan();
+    between_ = {std::clamp(motion().s, 0.0, current_->segment.length), 0.0, 0.0};
+    has_landed_ = false;
+    mode_ = Mode::kRest;
   }
   return Status::kMoving;
-}
-
-/// At rest after braking: finds the place in the plan, from where resume() goes on.
-void Interpolator::rejoin_plan() noexcept {
-  const double s = std::min(motion().s, current_->segment.length);
-  const auto& phases = current_->phases;
-  for (phase_ = 0; phase_ + 1 < phases.size() && phases[phase_ + 1].s <= s; ++phase_) {
-  }
-  const bool is_dwell = current_->segment.length == 0.0;  // it begins again
-  time_ = phases.empty() || is_dwell ? 0.0 : feedrate::time_at(phases[phase_], s);
-  pending_ = 0.0;
-  rate_ = 0.0;
-  rate_change_ = 0.0;
-  has_landed_ = false;
-  mode_ = Mode::kRest;
 }
 
 void Interpolator::brake(const feedrate::RampLimits& limits) noexcept {
@@ -150,27 +157,69 @@ void Interpolator::brake(const feedrate::RampLimits& limits) noexcept {
     is_done_ = true;
     return;
   }
-  brake_ = feedrate::make_brake(motion(), limits);
+  brake_ = brake_from_here(limits);
   time_ = 0.0;
+  is_between_ = false;
   mode_ = Mode::kBrake;
+}
+
+feedrate::Brake Interpolator::brake_from_here(feedrate::RampLimits limits) const noexcept {
+  const feedrate::RampLimits& planned = current_->brake;
+  if (planned.acceleration > 0.0) {
+    limits.acceleration = std::min(limits.acceleration, planned.acceleration);
+    limits.jerk = std::min(limits.jerk, planned.jerk);
+  }
+  return feedrate::make_brake(motion(), limits);
+}
+
+bool Interpolator::arm(const PlanSwitch& at) noexcept {
+  if (mode_ != Mode::kPlan || is_between_ || is_done_ || current_ == nullptr) {
+    return false;
+  }
+  const bool is_here = current_->index == at.segment;
+  const bool is_phase_ahead = phase_ < at.phase || (phase_ == at.phase && time_ <= at.time);
+  if (current_->index > at.segment || (is_here && !is_phase_ahead)) {
+    return false;
+  }
+  armed_ = at;
+  return true;
+}
+
+void Interpolator::adopt(std::int64_t plan) noexcept {
+  if (mode_ == Mode::kRest) {
+    armed_.reset();
+    plan_ = plan;
+    source_.adopt(plan);
+  }
 }
 
 void Interpolator::resume() noexcept {
   if (mode_ == Mode::kRest) {
     mode_ = Mode::kPlan;
-    rate_time_ = 0.0;
+    is_between_ = true;
+    phase_ = 0;
+    time_ = 0.0;
   }
 }
 
-double Interpolator::braking_distance(const feedrate::RampLimits& limits) const noexcept {
-  return current_ == nullptr ? 0.0 : feedrate::make_brake(motion(), limits).distance;
+void Interpolator::finish() noexcept { is_done_ = is_done_ || mode_ == Mode::kRest; }
+
+PlanPlace Interpolator::place() const noexcept {
+  return {current_->index, phase_, time_, motion().s};
 }
 
-double Interpolator::remaining_in_segment() const noexcept {
-  return current_ == nullptr ? 0.0 : current_->segment.length - motion().s;
+double Interpolator::distance() const noexcept {
+  return current_ == nullptr ? 0.0 : passed_ + motion().s;
+}
+
+double Interpolator::braking_distance(const feedrate::RampLimits& limits) const noexcept {
+  return current_ == nullptr ? 0.0 : brake_from_here(limits).distance;
 }
 
 feedrate::PathMotion Interpolator::motion() const noexcept {
+  if (mode_ == Mode::kRest || is_between_) {
+    return between_;
+  }
   if (mode_ == Mode::kBrake) {
     double t = time_;
     std::size_t i = 0;
@@ -181,16 +230,13 @@ feedrate::PathMotion Interpolator::motion() const noexcept {
   }
   if (phase_ >= current_->phases.size()) {
     feedrate::PathMotion end{current_->segment.length, 0.0, 0.0};
-    if (has_landed_) {
+    if (!current_->phases.empty() && !is_done_) {
       const feedrate::Phase& last = current_->phases.back();
       end.v = feedrate::motion_at(last, last.duration).v;
     }
     return end;
   }
-  feedrate::PathMotion m = feedrate::motion_at(current_->phases[phase_], time_);
-  m.a = m.a * rate_ * rate_ + m.v * rate_change_;
-  m.v *= rate_;
-  return m;
+  return feedrate::motion_at(current_->phases[phase_], time_);
 }
 
 path::PathPoint Interpolator::locate(const feedrate::PathMotion& m) noexcept {
@@ -208,13 +254,11 @@ path::PathPoint Interpolator::locate(const feedrate::PathMotion& m) noexcept {
   if (has_landed_) {
     return segment.end;
   }
-  const bool is_off_plan = mode_ != Mode::kPlan || rate_ != 1.0;
-  return follower_.follow(*fitted, m, elapsed_, period_, is_off_plan);
+  return follower_.follow(*fitted, m, elapsed_, period_, mode_ != Mode::kPlan);
 }
 
-void Interpolator::place(SetPoint& out) noexcept {
-  feedrate::PathMotion m =
-      is_done_ || mode_ == Mode::kRest ? feedrate::PathMotion{motion().s, 0.0, 0.0} : motion();
+void Interpolator::put_place(SetPoint& out) noexcept {
+  feedrate::PathMotion m = is_done_ ? feedrate::PathMotion{motion().s, 0.0, 0.0} : motion();
   m.s = std::clamp(m.s, 0.0, current_->segment.length);
   const path::PathPoint at = locate(m);
   out.position = at.position;

@@ -8,6 +8,7 @@
 
 #include "core/limits.hpp"
 #include "metrics/limit_audit.hpp"
+#include "metrics/override_record.hpp"
 
 namespace twin::metrics {
 
@@ -95,8 +96,9 @@ struct Summary {
   std::optional<CertifiedFigures> certified;  ///< else its keys are left out
   double compression_factor = 0.0;            ///< blocks over segments [-]
   double path_length = 0.0;                   ///< [mm]
-  double planned_time = 0.0;                  ///< [s]
+  double planned_time = 0.0;                  ///< before running, without override [s]
   std::optional<double> time_bound;           ///< lower bound of it, where asked for [s]
+  std::vector<OverrideRecord> overrides;      ///< empty: its key is left out
   ErrorFigures command_contour_error;         ///< set points against programmed path
   ShareFigures feedrate_fluctuation;          ///< see FeedrateFluctuation
   AuditPeaks audit;

@@ -54,6 +54,16 @@ Json audit_of(const AuditPeaks& audit) {
           {"axis", axes}};
 }
 
+Json overrides_of(const std::vector<OverrideRecord>& overrides) {
+  Json list = Json::array();
+  for (const OverrideRecord& change : overrides) {
+    list.push_back({{"asked_at_s", rounded(change.asked_at)},
+                    {"percent", rounded(change.percent)},
+                    {"from_s", rounded(change.from)}});
+  }
+  return list;
+}
+
 Json cycle_time_us(const CycleTimes& times) {
   return {{"p50", rounded(times.p50 * 1e6)},
           {"p99", rounded(times.p99 * 1e6)},
@@ -100,6 +110,9 @@ std::string to_json(const Summary& summary) {
   }
   if (summary.certified) {
     json["certified_deviation_um"] = rounded(units::um_from_mm(summary.certified->deviation));
+  }
+  if (!summary.overrides.empty()) {
+    json["override"] = overrides_of(summary.overrides);
   }
   json["command_contour_error_um"] = error_um(summary.command_contour_error);
   if (summary.run) {

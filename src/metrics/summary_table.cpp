@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "core/units.hpp"
@@ -48,6 +49,20 @@ std::string title_of(const Summary& s) {
                      s.interpolator, s.period * 1e3);
 }
 
+/// "50 % from 2.034 s, hold from 3.500 s": the first few changes.
+std::string overrides_of(const std::vector<OverrideRecord>& overrides) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(overrides.size(), kMost); ++i) {
+    const OverrideRecord& change = overrides[i];
+    text += text.empty() ? "" : ", ";
+    text += change.percent == 0.0 ? "hold" : fmt::format("{:g} %", change.percent);
+    text += fmt::format(" from {:.3f} s", change.from);
+  }
+  return overrides.size() > kMost ? fmt::format("{}, and {} more", text, overrides.size() - kMost)
+                                  : text;
+}
+
 void add_path(Table& table, const Summary& s) {
   table.line("blocks", fmt::format("{}, {} of them short, {:.3f} to {:.3f} mm, mean {:.3f} mm",
                                    s.blocks.total, s.blocks.short_blocks, s.blocks.length_min,
@@ -66,6 +81,9 @@ void add_path(Table& table, const Summary& s) {
              s.time_bound ? fmt::format("{:.3f} s, {:.4f} of the bound of {:.3f} s", s.planned_time,
                                         s.planned_time / *s.time_bound, *s.time_bound)
                           : fmt::format("{:.3f} s", s.planned_time));
+  if (!s.overrides.empty()) {
+    table.line("feed override", overrides_of(s.overrides));
+  }
   if (s.run) {
     table.line("machining time", fmt::format("{:.3f} s, {:.1f} x real time", s.run->machining_time,
                                              s.run->real_time_factor));

@@ -166,7 +166,7 @@ hal::Status Cycle::hold() noexcept {
 }
 
 void Cycle::fill(trace::Sample& sample) const noexcept {
-  sample.t = static_cast<double>(periods_) * period_;
+  sample.t = time();
   sample.segment = set_point_.segment;
   sample.block = set_point_.block;
   sample.line = set_point_.line;
@@ -185,7 +185,7 @@ std::size_t Cycle::axis_not_ready() const noexcept {
 }
 
 safety::Trip Cycle::stamped(safety::Trip trip) const noexcept {
-  trip.time = static_cast<double>(periods_) * period_;
+  trip.time = time();
   trip.line = set_point_.line;
   return trip;
 }

@@ -69,6 +69,8 @@ class Cycle {
   const Vec2& measured() const noexcept { return measured_; }
   /// What the monitors have found first.
   const std::optional<safety::Trip>& trip() const noexcept { return trip_; }
+  /// Time of the next sample, since the first one [s].
+  double time() const noexcept { return static_cast<double>(periods_) * period_; }
   /// A trip as of this period, about the whole machine or one axis. Real-time safe.
   safety::Trip stamped(safety::Trip trip) const noexcept;
   /// 0 V and servo off. Not real-time safe.

@@ -43,8 +43,14 @@ class Motion {
   void guard_supply();
   void record(const trace::Sample& sample);
   void pass_over_missed();
-  bool wait_on_path();
+  std::optional<MotionEnd> wait_on_path();
+  std::optional<MotionEnd> exchange_and_record();
   void trip(safety::Trip trip);
+  void take_trip() {
+    if (cycle_.trip()) {
+      trip(*cycle_.trip());
+    }
+  }
   MotionEnd failed() const;
   MotionEnd at_rest() const;
   bool has_to_stop() const { return trip_ || met_at_ || stop_.load(std::memory_order_relaxed); }
@@ -64,6 +70,7 @@ class Motion {
   std::optional<safety::Trip> trip_;
   std::optional<Vec2> met_at_;
   bool is_recording_ = true;
+  interpolator::Status status_ = interpolator::Status::kMoving;  // of the last turn
 };
 
 /// Wall clock: sleeps until the period begins and reads the machine at once.
@@ -92,18 +99,14 @@ bool Motion::rest_one_period() {
   const bool is_fine = pace_.is_wall_clock
                            ? begin_period() && cycle_.respond_at_rest() == hal::Status::kOk
                            : cycle_.hold() == hal::Status::kOk;
-  if (cycle_.trip()) {
-    trip(*cycle_.trip());
-  }
+  take_trip();
   return is_fine;
 }
 
 /// The period of a set point; on the wall clock it has begun already.
 bool Motion::exchange(trace::Sample& sample) {
   const hal::Status status = pace_.is_wall_clock ? cycle_.respond(sample) : cycle_.exchange(sample);
-  if (cycle_.trip()) {
-    trip(*cycle_.trip());
-  }
+  take_trip();
   if (pace_.is_wall_clock) {
     sample.wake_up_latency = wake_up_.latency;
     sample.total_time = pacer_.since_deadline();
@@ -120,10 +123,7 @@ MotionEnd Motion::failed() const {
 }
 
 MotionEnd Motion::at_rest() const {
-  if (trip_) {
-    return MotionEnd::kTripped;
-  }
-  return stop_.load() ? MotionEnd::kInterrupted : MotionEnd::kDone;
+  return trip_ ? MotionEnd::kTripped : stop_.load() ? MotionEnd::kInterrupted : MotionEnd::kDone;
 }
 
 /// Lets the loop settle at rest before the path begins, and waits until the drives are ready.
@@ -164,10 +164,11 @@ void Motion::guard_supply() {
     interpolator_.brake(ramp_);
     return;
   }
-  if (!pace_.is_wall_clock || segments_.is_closed()) {
+  const std::int64_t plan = interpolator_.latest_plan();
+  if (!pace_.is_wall_clock || segments_.is_closed(plan)) {
     return;
   }
-  const double known = segments_.buffered_length() + interpolator_.remaining_in_segment();
+  const double known = segments_.reach(plan) - interpolator_.distance();
   const double next_period = 2.0 * limits_.feedrate * pace_.period;
   if (interpolator_.braking_distance(ramp_) + next_period > known) {
     interpolator_.brake(ramp_);
@@ -189,20 +190,30 @@ void Motion::record(const trace::Sample& sample) {
 
 /// A period without a set point of the path: at rest on the wall clock, where it has begun; a nap
 /// off it.
-bool Motion::wait_on_path() {
+std::optional<MotionEnd> Motion::wait_on_path() {
   if (!pace_.is_wall_clock) {
     nap();
-    return true;
+    return std::nullopt;
   }
   const bool is_fine = cycle_.respond_at_rest() == hal::Status::kOk;
-  if (cycle_.trip()) {
-    trip(*cycle_.trip());
-  }
-  return is_fine;
+  take_trip();
+  return is_fine ? std::nullopt : std::optional(failed());
 }
 
-/// Wall clock of a machine whose time passes by itself: the set points of missed periods are passed
-/// over, so that this period's is where the table should be by now.
+/// A recorded period: at a set point of the path, or at rest in a feed hold.
+std::optional<MotionEnd> Motion::exchange_and_record() {
+  trace::Sample sample;
+  const bool is_fine = exchange(sample);
+  if (is_fine || failed() == MotionEnd::kTripped) {
+    record(sample);
+  }
+  if (pace_.feed != nullptr) {
+    pace_.feed->show(sample);
+  }
+  return is_fine ? std::nullopt : std::optional(failed());
+}
+
+/// Passes over the set points of missed periods, on a machine whose time passes by itself.
 void Motion::pass_over_missed() {
   const double pieces = wake_up_.missed + 1.0;
   for (int i = 1; i <= wake_up_.missed; ++i) {
@@ -224,28 +235,26 @@ std::optional<MotionEnd> Motion::follow_path() {
     }
     pass_over_missed();
   }
+  if (pace_.is_wall_clock && !interpolator_.has_started() && !segments_.is_primed() &&
+      !has_to_stop()) {
+    return wait_on_path();
+  }
   guard_supply();
-  const interpolator::Status status = cycle_.prepare();
-  if (status == interpolator::Status::kDone) {
+  if (pace_.feed != nullptr && !has_to_stop() && status_ != interpolator::Status::kStarved) {
+    pace_.feed->update(cycle_.time(), stop_);
+  }
+  status_ = cycle_.prepare();
+  if (status_ == interpolator::Status::kDone) {
     return at_rest();
   }
-  if (status == interpolator::Status::kMoving) {
-    trace::Sample sample;
-    const bool is_fine = exchange(sample);
-    if (is_fine || failed() == MotionEnd::kTripped) {
-      record(sample);
-    }
-    return is_fine ? std::nullopt : std::optional(failed());
+  const bool is_at_rest = status_ == interpolator::Status::kAtRest;
+  if (is_at_rest && (has_to_stop() || pace_.feed == nullptr)) {
+    return at_rest();
   }
-  if (status == interpolator::Status::kAtRest) {
-    if (has_to_stop()) {
-      return at_rest();
-    }
-    if (segments_.is_primed()) {
-      interpolator_.resume();
-    }
+  if (status_ == interpolator::Status::kMoving || (is_at_rest && pace_.feed->is_hold())) {
+    return exchange_and_record();
   }
-  return wait_on_path() ? std::nullopt : std::optional(failed());
+  return wait_on_path();
 }
 
 MotionEnd Motion::move() {
@@ -258,13 +267,11 @@ MotionEnd Motion::move() {
 
 /// Lets the table come to where the path ended. @returns false if the machine failed meanwhile
 bool Motion::hold() {
-  const auto periods = cycle_.has_machine() ? std::lround(pace_.hold_time / pace_.period) : 0;
-  for (long i = 0; i < periods; ++i) {
-    if (!rest_one_period()) {
-      return false;
-    }
+  auto periods = cycle_.has_machine() ? std::lround(pace_.hold_time / pace_.period) : 0;
+  while (periods > 0 && rest_one_period()) {
+    --periods;
   }
-  return true;
+  return periods == 0;
 }
 
 MotionResult Motion::run() {

@@ -12,6 +12,7 @@
 #include "hal/machine.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/cycle.hpp"
+#include "runtime/feed_control.hpp"
 #include "runtime/hooks.hpp"
 #include "runtime/segment_queue.hpp"
 #include "safety/trip.hpp"
@@ -44,12 +45,13 @@ struct MotionResult {
 struct Pace {
   bool is_wall_clock =
       false;  ///< one period of the cycle per period of the wall clock; else as fast as it goes
-  double period = 0.001;       ///< [s]
-  double settle_time = 0.3;    ///< held at rest before the first set point, with a machine [s]
-  double hold_time = 0.0;      ///< held at rest after the path's end, not recorded [s]
-  double ready_timeout = 3.0;  ///< within which the drives must be ready [s]
-  RealtimeSettings realtime;   ///< when a period is too late
-  Clock* clock = nullptr;      ///< null: CLOCK_MONOTONIC
+  double period = 0.001;        ///< [s]
+  double settle_time = 0.3;     ///< held at rest before the first set point, with a machine [s]
+  double hold_time = 0.0;       ///< held at rest after the path's end, not recorded [s]
+  double ready_timeout = 3.0;   ///< within which the drives must be ready [s]
+  RealtimeSettings realtime;    ///< when a period is too late
+  Clock* clock = nullptr;       ///< null: CLOCK_MONOTONIC
+  FeedControl* feed = nullptr;  ///< override and hold; null: a path that was braked ends there
   std::function<void(std::int64_t)> before_period;  ///< see Hooks
   Until until;                                      ///< ends the motion early
 };
@@ -61,8 +63,9 @@ struct Pace {
 ///
 /// Off the wall clock it waits for segments and for room in the sample queue, so the result does
 /// not depend on threads' timing. On the wall clock it waits for nothing: a planner that falls
-/// behind makes it brake on the path before the known part ends, and go on when the buffer has
-/// filled again. Late periods and a full sample queue make it brake on the path and end.
+/// behind makes it brake on the path before the known part ends, and go on by another plan when the
+/// buffer has filled again. A feed hold is a part of the motion: its periods are recorded. Late
+/// periods and a full sample queue make it brake on the path and end.
 ///
 /// @param stop  set from outside (Ctrl-C): brake on the path and end
 MotionResult run_motion(Cycle& cycle, interpolator::Interpolator& interpolator,

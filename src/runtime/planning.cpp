@@ -9,6 +9,7 @@
 #include "path/builder.hpp"
 
 namespace twin::runtime {
+
 namespace {
 
 /// Non-empty spans of a curve.
@@ -19,16 +20,10 @@ std::int64_t count_spans(const nurbs::Curve& curve) {
                                [](double to, double from) { return from < to ? 1 : 0; });
 }
 
-/// @param last_block  of those counted as short; one that is shared by two curves counts once
-void count(const feedrate::PlannedSegment& planned, PlanFigures& figures,
-           std::int64_t& last_block) {
-  const path::Segment& segment = planned.segment;
-  if (figures.certified_deviation) {
-    figures.certified_deviation = std::max(*figures.certified_deviation, segment.deviation);
-  }
-  for (const feedrate::Phase& phase : planned.phases) {
-    figures.time += phase.duration;
-  }
+}  // namespace
+
+void count(const path::Segment& segment, PlanFigures& figures) {
+  figures.deviation = std::max(figures.deviation, segment.deviation);
   figures.path_length += segment.length;
   if (std::holds_alternative<path::Line>(segment.geometry)) {
     ++figures.lines;
@@ -42,32 +37,30 @@ void count(const feedrate::PlannedSegment& planned, PlanFigures& figures,
     ++figures.fitted_curves;
     figures.spans += count_spans(curve->curve);
     for (const path::BlockMark& mark : segment.marks) {
-      if (mark.block > last_block) {
+      if (mark.block > figures.last_short) {
         figures.short_length.add(mark.length);
-        last_block = mark.block;
+        figures.last_short = mark.block;
       }
     }
   }
 }
 
-}  // namespace
-
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
   PlanFigures figures;
-  if (machine.path.planner == Planner::kCertified) {
-    figures.certified_deviation = 0.0;
-  }
-  std::int64_t last_block = -1;
   bool goes_on = true;
   feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path, machine.period,
                                  [&](feedrate::PlannedSegment&& planned) {
-                                   count(planned, figures, last_block);
+                                   for (const feedrate::Phase& phase : planned.phases) {
+                                     figures.time += phase.duration;
+                                   }
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  const auto builder =
-      path::make_builder(machine.path, machine.planning, machine.limits,
-                         [&](path::Segment&& segment) { look_ahead.push(std::move(segment)); });
+  const auto builder = path::make_builder(machine.path, machine.planning, machine.limits,
+                                          [&](path::Segment&& segment) {
+                                            count(segment, figures);
+                                            look_ahead.push(std::move(segment));
+                                          });
   while (goes_on) {
     auto block = reader.next();
     if (!block) {
@@ -87,13 +80,13 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
   return figures;
 }
 
-void put_into(metrics::Summary& summary, const PlanFigures& figures) {
+void put_into(metrics::Summary& summary, const PlanFigures& figures, Planner planner) {
   const metrics::Running& lengths = figures.short_length;
   summary.blocks = {figures.blocks, lengths.count(), lengths.min(), lengths.mean(), lengths.max()};
   summary.segments = {figures.curves + figures.lines + figures.arcs, figures.curves, figures.lines,
                       figures.arcs};
-  if (figures.certified_deviation) {
-    summary.certified = {*figures.certified_deviation, figures.spans};
+  if (planner == Planner::kCertified) {
+    summary.certified = {figures.deviation, figures.spans};
   }
   summary.compression_factor =
       figures.fitted_curves > 0

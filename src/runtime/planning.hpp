@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
@@ -21,12 +20,15 @@ struct PlanFigures {
   std::int64_t spans = 0;          ///< of the fitted curves
   std::int64_t lines = 0;
   std::int64_t arcs = 0;
-  double path_length = 0.0;                   ///< along the segments [mm]
-  double time = 0.0;                          ///< planned time [s]
-  std::optional<double> certified_deviation;  ///< largest of the segments' bounds, where the
-                                              ///< planner gives them [mm]
-  std::int64_t fallbacks = 0;  ///< plans that could not be made and followed an earlier one
+  std::int64_t last_short = -1;  ///< number of the last block counted in short_length
+  double path_length = 0.0;      ///< along the segments [mm]
+  double time = 0.0;             ///< planned time [s]
+  double deviation = 0.0;        ///< largest of the segments' bounds [mm]
+  std::int64_t fallbacks = 0;    ///< plans that could not be made and followed an earlier one
 };
+
+/// Counts a segment that the path builder has made.
+void count(const path::Segment& segment, PlanFigures& figures);
 
 /// The whole planning chain, text to planned segments: Reader, path::Builder, LookAhead.
 ///
@@ -34,7 +36,7 @@ struct PlanFigures {
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink);
 
-/// The figures of a plan where the summary has them.
-void put_into(metrics::Summary& summary, const PlanFigures& figures);
+/// The figures of a plan by this planner where the summary has them.
+void put_into(metrics::Summary& summary, const PlanFigures& figures, Planner planner);
 
 }  // namespace twin::runtime

@@ -8,11 +8,15 @@
 #include <utility>
 
 #include "hal/active_machine.hpp"
+#include "runtime/cycle_time.hpp"
+#include "runtime/feed_control.hpp"
 #include "runtime/motion.hpp"
-#include "runtime/planning.hpp"
+#include "runtime/motion_end.hpp"
 #include "runtime/program_check.hpp"
+#include "runtime/program_planner.hpp"
 #include "runtime/realtime_thread.hpp"
 #include "runtime/recorder.hpp"
+#include "runtime/run_options.hpp"
 #include "runtime/thrown.hpp"
 #include "safety/trip.hpp"
 
@@ -20,25 +24,34 @@ namespace twin::runtime {
 namespace {
 
 constexpr std::size_t kSampleBuffer = 16384;
-constexpr double kHoldTime = 0.1;    // at the path's end, before the machine is switched off [s]
 constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
 
 /// One run: its threads and what they share.
 class Run {
  public:
-  Run(const RunRequest& request, const ProgramFigures& program, Recorder&& recorder)
+  /// @param planned_time  if it is known from planning beforehand [s]
+  Run(const RunRequest& request, const ProgramFigures& program, Recorder&& recorder,
+      std::optional<double> planned_time)
       : request_(request),
         program_(program),
         recorder_(std::move(recorder)),
-        segments_(static_cast<std::size_t>(request.machine.path.look_ahead)),
+        has_control_(request.is_wall_clock || !request.overrides.empty() ||
+                     request.panel != nullptr),
+        segments_(static_cast<std::size_t>(request.machine.path.look_ahead), room_for_next_plan()),
         samples_(kSampleBuffer),
         interpolator_(segments_, request.machine.period, request.machine.interpolation),
         cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period,
-               request.machine.safety, request.machine.limits.feedrate) {}
+               request.machine.safety, request.machine.limits.feedrate),
+        feed_(interpolator_, segments_, link_,
+              request.panel != nullptr ? *request.panel : own_panel_, feed_options(request)),
+        planned_time_(planned_time) {}
 
   Expected<RunResult> execute();
 
  private:
+  std::size_t room_for_next_plan() const {
+    return has_control_ ? static_cast<std::size_t>(request_.machine.path.look_ahead) + 2 : 0;
+  }
   void plan(gcode::Reader& reader);
   void guarded_plan(gcode::Reader& reader) noexcept;
   void move();
@@ -53,10 +66,15 @@ class Run {
   const RunRequest& request_;
   const ProgramFigures& program_;
   Recorder recorder_;
+  bool has_control_;  // the path may be planned again while it is followed
   SegmentQueue segments_;
   SampleQueue samples_;
   interpolator::Interpolator interpolator_;
   Cycle cycle_;
+  ReplanLink link_;
+  OperatorPanel own_panel_;
+  FeedControl feed_;
+  std::optional<double> planned_time_;  // [s]
   std::atomic<bool> stop_{false};
   std::atomic<bool> has_ended_{false};
   PlanFigures plan_figures_;         // written by the planning thread, read after its end
@@ -68,19 +86,11 @@ class Run {
   int shown_percent_ = -1;
 };
 
-gcode::ReaderOptions reader_options(const RunRequest& request) {
-  return {.feedrate = request.feedrate};
-}
-
 void Run::plan(gcode::Reader& reader) {
-  std::int64_t count = 0;
-  auto figures = plan_program(reader, request_.machine, [&](feedrate::PlannedSegment&& planned) {
-    if (request_.hooks.before_segment) {
-      request_.hooks.before_segment(count++);
-    }
-    return segments_.push(std::move(planned));
-  });
-  if (figures) {
+  ProgramPlanner planner(reader, request_.machine, segments_, has_control_ ? &link_ : nullptr,
+                         feed_.first_percent());
+  planner.before_segment = request_.hooks.before_segment;
+  if (auto figures = planner.run()) {
     plan_figures_ = *figures;
   } else {
     plan_error_ = figures.error();
@@ -96,7 +106,10 @@ void Run::guarded_plan(gcode::Reader& reader) noexcept {
     plan_error_ = thrown("planning");
     stop_ = true;
   }
-  segments_.close();
+  if (plan_error_) {
+    segments_.close();  // of whatever plan: the motion is to stop
+  }
+  link_.break_off();
 }
 
 void Run::move() {
@@ -105,14 +118,8 @@ void Run::move() {
     realtime.emplace(request_.machine.realtime);
     notes_ = realtime->notes();
   }
-  Pace pace;
-  pace.is_wall_clock = request_.is_wall_clock;
-  pace.period = request_.machine.period;
-  pace.ready_timeout = request_.machine.safety.ready_timeout;
-  pace.realtime = request_.machine.realtime;
-  pace.before_period = request_.hooks.before_period;
-  pace.until = request_.until;
-  pace.hold_time = kHoldTime;
+  Pace pace = pace_of(request_);
+  pace.feed = has_control_ ? &feed_ : nullptr;
   const Limits& limits = request_.machine.limits;
   motion_ = run_motion(cycle_, interpolator_, segments_, samples_, limits, pace, stop_);
 }
@@ -127,6 +134,7 @@ void Run::guarded_move() noexcept {
     move_error_ = thrown("the motion thread");
   }
   segments_.stop();
+  feed_.show_end();
   has_ended_.store(true, std::memory_order_release);
 }
 
@@ -190,22 +198,7 @@ std::optional<Error> Run::failure() const {
       return error;
     }
   }
-  const trace::Sample& last = recorder_.last();
-  const auto at = fmt::format("at t = {:.3f} s, NC line {}", last.t, last.line);
-  switch (motion_.end) {
-    case MotionEnd::kDone:
-      return std::nullopt;
-    case MotionEnd::kInterrupted:
-      return fail(ErrorCode::kInterrupted, "interrupted: stopped on the path " + at).value();
-    case MotionEnd::kMachineError:
-      return fail(ErrorCode::kMachine,
-                  fmt::format("machine '{}' failed {}: {}", request_.hal->info().name, at,
-                              request_.hal->last_error()))
-          .value();
-    case MotionEnd::kTripped:
-      return fail(ErrorCode::kMachine, safety::describe(*motion_.trip)).value();
-  }
-  return std::nullopt;
+  return describe_end(motion_, recorder_.last(), request_.hal);
 }
 
 metrics::Summary Run::summarise(double wall_time) {
@@ -216,7 +209,9 @@ metrics::Summary Run::summarise(double wall_time) {
   summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
-  put_into(summary, plan_figures_);
+  put_into(summary, plan_figures_, request_.machine.path.planner);
+  summary.planned_time = planned_time_.value_or(plan_figures_.time);
+  summary.overrides = feed_.records();
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;
@@ -273,6 +268,17 @@ Expected<RunResult> run_program(const RunRequest& request) {
   if (!program) {
     return tl::unexpected(program.error());
   }
+  std::optional<double> planned_time;
+  if (request.hal != nullptr || !request.overrides.empty()) {
+    const auto plan = estimate_plan(request.program, options, request.machine, request.stop);
+    if (!plan) {
+      return tl::unexpected(plan.error());
+    }
+    planned_time = plan->time;
+    if (request.estimated) {
+      request.estimated(plan->time);
+    }
+  }
   std::error_code code;
   std::filesystem::create_directories(request.directory / "plots", code);
   if (code) {
@@ -282,18 +288,11 @@ Expected<RunResult> run_program(const RunRequest& request) {
   if (auto started = machine.start(request.machine.period); !started) {
     return tl::unexpected(started.error());
   }
-  const Recorder::Options recording{.directory = request.directory,
-                                    .program = request.program,
-                                    .reader = options,
-                                    .limits = request.machine.limits,
-                                    .period = request.machine.period,
-                                    .has_machine = request.hal != nullptr,
-                                    .is_wall_clock = request.is_wall_clock};
-  auto recorder = Recorder::create(recording);
+  auto recorder = Recorder::create(recorder_options(request));
   if (!recorder) {
     return tl::unexpected(recorder.error());
   }
-  Run run(request, *program, std::move(*recorder));
+  Run run(request, *program, std::move(*recorder), planned_time);
   return run.execute();
 }
 

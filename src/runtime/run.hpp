@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
@@ -12,6 +13,8 @@
 #include "hal/machine.hpp"
 #include "metrics/summary.hpp"
 #include "runtime/hooks.hpp"
+#include "runtime/operator_panel.hpp"
+#include "runtime/override_schedule.hpp"
 #include "safety/trip.hpp"
 
 namespace twin::runtime {
@@ -26,6 +29,9 @@ struct RunRequest {
   bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
+  std::function<void(double)> estimated;    ///< gets the cycle time before anything moves [s]
+  std::vector<OverrideChange> overrides;    ///< of the feedrate, while it moves
+  OperatorPanel* panel = nullptr;           ///< for override and hold by an operator
   Until until;                              ///< ends the motion early, as at the path's end
   Hooks hooks;                              ///< for tests
 };
@@ -43,7 +49,8 @@ struct RunResult {
 /// Plans a program, moves the machine along it and records everything: planning thread, motion
 /// thread, and the caller's as recorder.
 ///
-/// Before anything moves the whole program is read and held against the travel. Whatever ends the
+/// Before anything moves the whole program is read and held against the travel, and planned for the
+/// cycle time. Whatever ends the
 /// motion, the machine is off by then; what throws in a thread, progress() included, brakes it.
 ///
 /// @returns what was recorded, or the error that kept the run from starting

@@ -6,36 +6,59 @@
 
 namespace twin::runtime {
 
-SegmentQueue::SegmentQueue(std::size_t capacity)
-    : pool_(capacity + 1), planned_(pool_.size()), free_(pool_.size()) {
+SegmentQueue::SegmentQueue(std::size_t capacity, std::size_t spare)
+    : capacity_(capacity),
+      pool_(capacity + 1 + spare),
+      planned_(pool_.size()),
+      free_(pool_.size()) {
   for (feedrate::PlannedSegment& segment : pool_) {
     free_.push(&segment);
   }
 }
 
-bool SegmentQueue::push(feedrate::PlannedSegment&& segment) {
+bool SegmentQueue::try_push(feedrate::PlannedSegment& segment, std::int64_t plan, double reach) {
   feedrate::PlannedSegment* slot = nullptr;
-  while (!free_.pop(slot)) {
+  if (!free_.pop(slot)) {
+    return false;
+  }
+  *slot = std::move(segment);
+  planned_.push(slot);
+  set_reach(plan, reach);
+  return true;
+}
+
+bool SegmentQueue::push(feedrate::PlannedSegment&& segment) {
+  const std::int64_t plan = segment.plan;
+  const double end = reach(plan) + segment.segment.length;
+  while (!try_push(segment, plan, end)) {
     if (is_stopped()) {
       return false;
     }
     std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
-  *slot = std::move(segment);
-  const double length = slot->segment.length;
-  planned_.push(slot);
-  pushed_length_.store(pushed_length_.load(std::memory_order_relaxed) + length,
-                       std::memory_order_release);
   return !is_stopped();
 }
 
 const feedrate::PlannedSegment* SegmentQueue::next() noexcept {
-  feedrate::PlannedSegment* segment = nullptr;
-  if (!planned_.pop(segment)) {
-    return nullptr;
+  if (ahead_ != nullptr) {
+    return std::exchange(ahead_, nullptr);
   }
-  popped_length_ += segment->segment.length;
-  return segment;
+  feedrate::PlannedSegment* segment = nullptr;
+  while (planned_.pop(segment)) {
+    if (segment->plan == plan_) {
+      return segment;
+    }
+    release(segment);
+  }
+  return nullptr;
+}
+
+void SegmentQueue::adopt(std::int64_t plan) noexcept {
+  if (ahead_ != nullptr) {
+    release(std::exchange(ahead_, nullptr));
+  }
+  plan_ = plan;
+  ahead_ = next();
 }
 
 void SegmentQueue::release(const feedrate::PlannedSegment* segment) noexcept {
@@ -43,15 +66,12 @@ void SegmentQueue::release(const feedrate::PlannedSegment* segment) noexcept {
 }
 
 bool SegmentQueue::is_finished() const noexcept {
-  return is_closed() && planned_.read_available() == 0;
-}
-
-double SegmentQueue::buffered_length() const noexcept {
-  return pushed_length_.load(std::memory_order_acquire) - popped_length_;
+  return is_closed(plan_) && ahead_ == nullptr && planned_.read_available() == 0;
 }
 
 bool SegmentQueue::is_primed() const noexcept {
-  return is_closed() || planned_.write_available() <= 1;
+  const std::size_t waiting = planned_.read_available() + (ahead_ != nullptr ? 1 : 0);
+  return is_closed(plan_) || waiting >= capacity_;
 }
 
 }  // namespace twin::runtime

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "feedrate/planned_segment.hpp"
@@ -15,44 +17,65 @@ namespace twin::runtime {
 /// A fixed number of segments goes round: the planning thread takes a free one, fills it
 /// (allocating as it must) and pushes it; the motion thread pops it, follows it, and gives it back.
 /// So the motion thread neither allocates nor frees, and a planner that is far ahead waits.
+///
+/// Where another plan takes over, its segments come after those of the plan before; what is left of
+/// that one is passed over by adopt(). How far a plan reaches is known for the two latest ones.
 class SegmentQueue final : public interpolator::SegmentSource {
  public:
-  explicit SegmentQueue(std::size_t capacity);
+  /// @param capacity  segments of a plan that wait in it
+  /// @param spare     room for those of the next plan while they do
+  explicit SegmentQueue(std::size_t capacity, std::size_t spare = 0);
 
   // Planning thread.
 
   /// Hands a segment over; waits while the buffer is full. @returns false if the motion was stopped
   /// meanwhile
   bool push(feedrate::PlannedSegment&& segment);
-  /// No more segments follow.
-  void close() noexcept { is_closed_.store(true, std::memory_order_release); }
+  /// Hands a segment over. @param reach  see set_reach() @returns false, with nothing done, if the
+  /// buffer is full
+  bool try_push(feedrate::PlannedSegment& segment, std::int64_t plan, double reach);
+  /// The latest plan is known up to a distance from the path's start [mm].
+  void set_reach(std::int64_t plan, double reach) noexcept {
+    reach_[plan & 1].store(reach, std::memory_order_release);
+  }
+  /// No more segments of a plan follow.
+  void close(std::int64_t plan = 0) noexcept { closed_.store(plan, std::memory_order_release); }
 
   // Motion thread; real-time safe.
 
   const feedrate::PlannedSegment* next() noexcept override;
   void release(const feedrate::PlannedSegment* segment) noexcept override;
   bool is_finished() const noexcept override;
-  /// Length of the segments that wait in the buffer [mm].
-  double buffered_length() const noexcept;
-  bool is_closed() const noexcept { return is_closed_.load(std::memory_order_acquire); }
+  void adopt(std::int64_t plan) noexcept override;
+  /// Distance from the path's start up to which a plan is known [mm].
+  double reach(std::int64_t plan) const noexcept {
+    return reach_[plan & 1].load(std::memory_order_acquire);
+  }
+  /// Whether all of a plan has been handed over.
+  bool is_closed(std::int64_t plan) const noexcept {
+    return closed_.load(std::memory_order_acquire) == plan;
+  }
+  /// Whether the buffer is full, or holds all of the plan that is followed, so that motion may
+  /// start.
+  bool is_primed() const noexcept;
 
   // Any thread.
 
   /// Nothing is wanted any more: a planner that waits gives up.
   void stop() noexcept { is_stopped_.store(true, std::memory_order_release); }
   bool is_stopped() const noexcept { return is_stopped_.load(std::memory_order_acquire); }
-  /// Whether the buffer is full or complete, so that motion may start.
-  bool is_primed() const noexcept;
 
  private:
   using Ring = boost::lockfree::spsc_queue<feedrate::PlannedSegment*>;
 
+  std::size_t capacity_;
   std::vector<feedrate::PlannedSegment> pool_;
   Ring planned_;
   Ring free_;
-  std::atomic<double> pushed_length_{0.0};
-  double popped_length_ = 0.0;  // motion thread only
-  std::atomic<bool> is_closed_{false};
+  const feedrate::PlannedSegment* ahead_ = nullptr;  // motion thread: first of a plan adopted
+  std::int64_t plan_ = 0;                            // motion thread: the one that is followed
+  std::array<std::atomic<double>, 2> reach_{};       // of plans with even and odd numbers [mm]
+  std::atomic<std::int64_t> closed_{-1};
   std::atomic<bool> is_stopped_{false};
 };
 

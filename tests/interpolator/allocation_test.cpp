@@ -30,23 +30,36 @@ TEST(Allocation, IsCountedHere) {
   EXPECT_GE(allocations - before, 1);
 }
 
-TEST(Allocation, AStepNeedsNoneWhetherMovingBrakingOrResuming) {
+TEST(Allocation, AStepNeedsNoneWhetherMovingBrakingOrGoingOnByAnotherPlan) {
   const auto plan = testing::mixed_plan(1e-3);
-  testing::PlanSource source(plan);
+  testing::ReplanSource source(plan, 1e-3);
   Interpolator interpolator(source, 1e-3);
   SetPoint point;
-  const long before = allocations;
+  long allocated = 0;
+  const auto counted = [&](const auto& call) {
+    const long before = allocations;
+    call();
+    allocated += allocations - before;
+  };
   int steps = 0;
+  int rests = 0;
   for (Status status = Status::kMoving; status != Status::kDone && steps < 100000; ++steps) {
-    status = interpolator.step(point);
+    counted([&] { status = interpolator.step(point); });
     if (steps % 300 == 200) {
-      interpolator.brake({2450.0, 50000.0});
+      counted([&] { interpolator.brake({2450.0, 50000.0}); });
     }
     if (status == Status::kAtRest) {
-      interpolator.resume();
+      const PlanPlace place = interpolator.place();
+      const std::int64_t other = source.plan_from(place.segment, place.s, 0.0);
+      counted([&] {
+        interpolator.adopt(other);
+        interpolator.resume();
+      });
+      ++rests;
     }
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(allocated, 0);
+  EXPECT_GT(rests, 2);
   EXPECT_GT(steps, 1000);
 }
 

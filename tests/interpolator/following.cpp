@@ -44,6 +44,41 @@ void PlanSource::release(const PlannedSegment* segment) noexcept {
   released_ += segment == &plan_.segments[released_] ? 1 : 0;
 }
 
+ReplanSource::ReplanSource(const feedrate::testing::Plan& plan, double period, double scale)
+    : period_(period), scale_(scale), plans_{plan.segments} {
+  for (const PlannedSegment& planned : plan.segments) {
+    path_.push_back(planned.segment);
+  }
+}
+
+std::int64_t ReplanSource::plan_from(std::int64_t segment, double s, double v) {
+  const auto number = static_cast<std::int64_t>(plans_.size());
+  std::vector<PlannedSegment> again;
+  feedrate::LookAhead look_ahead(
+      {}, {}, {}, period_,
+      [&](PlannedSegment&& planned) {
+        planned.index += segment;
+        planned.plan = number;
+        again.push_back(std::move(planned));
+      },
+      {s, v}, scale_);
+  for (auto i = static_cast<std::size_t>(segment); i < path_.size(); ++i) {
+    look_ahead.push(path::Segment(path_[i]));
+  }
+  look_ahead.finish();
+  plans_.push_back(std::move(again));
+  return number;
+}
+
+const PlannedSegment* ReplanSource::next() noexcept {
+  return is_finished() ? nullptr : &segments()[next_++];
+}
+
+void ReplanSource::adopt(std::int64_t plan) noexcept {
+  plan_ = plan;
+  next_ = 0;
+}
+
 std::vector<SetPoint> follow(const feedrate::testing::Plan& plan, double period,
                              std::size_t starve_every, const Settings& settings) {
   PlanSource source(plan, starve_every);

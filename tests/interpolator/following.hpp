@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "interpolator/interpolator.hpp"
@@ -25,6 +26,34 @@ class PlanSource final : public SegmentSource {
   std::size_t asked_ = 0;
   std::size_t next_ = 0;
   std::size_t released_ = 0;
+};
+
+/// Hands out a plan, and others of the same path that start inside it, one after the other.
+class ReplanSource final : public SegmentSource {
+ public:
+  /// @param scale  of the programmed feedrates of the other plans [-]
+  ReplanSource(const feedrate::testing::Plan& plan, double period, double scale = 1.0);
+
+  /// Plans the path again from a place passed with no acceleration; adopt() switches to it.
+  /// @returns its number
+  std::int64_t plan_from(std::int64_t segment, double s, double v);
+
+  const feedrate::PlannedSegment* next() noexcept override;
+  void release(const feedrate::PlannedSegment* /*segment*/) noexcept override {}
+  bool is_finished() const noexcept override { return next_ == segments().size(); }
+  void adopt(std::int64_t plan) noexcept override;
+
+ private:
+  const std::vector<feedrate::PlannedSegment>& segments() const {
+    return plans_[static_cast<std::size_t>(plan_)];
+  }
+
+  double period_;
+  double scale_;
+  std::vector<path::Segment> path_;
+  std::deque<std::vector<feedrate::PlannedSegment>> plans_;
+  std::int64_t plan_ = 0;
+  std::size_t next_ = 0;
 };
 
 /// All set points of a plan.

@@ -4,11 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <thread>
 
 #include "runtime/motion.hpp"
+#include "runtime/program_planner.hpp"
 #include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/planned.hpp"
 #include "tests/runtime/trace_rows.hpp"
 
 // On the wall clock the machine waits for nothing. A planner that falls behind makes it brake on
@@ -48,41 +49,31 @@ std::vector<double> along_circle(const std::vector<Vec3>& points) {
   return s;
 }
 
-/// Drives kArcs planned segments past a motion on the wall clock.
+/// Plans the circle, as slowly as is told, past a motion on the wall clock.
 struct SlowRun {
-  explicit SlowRun(std::size_t buffer) : segments(buffer) {}
+  explicit SlowRun(int buffer)
+      : segments(static_cast<std::size_t>(buffer), static_cast<std::size_t>(buffer) + 2) {
+    machine_file.path.look_ahead = buffer;
+  }
 
-  MotionEnd run(const std::function<void(int)>& before_push) {
-    auto planned = test::plan_text(circle_in_arcs());
-    std::jthread planner([&] {
-      for (std::size_t i = 0; i < planned.size(); ++i) {
-        before_push(static_cast<int>(i));
-        if (!segments.push(std::move(planned[i]))) {
-          return;
-        }
-      }
-      segments.close();
+  MotionEnd run(const std::function<void(std::int64_t)>& before_segment, SampleQueue& to) {
+    auto reader = gcode::Reader::from_text(circle_in_arcs(), "text");
+    const std::jthread planning([&] {
+      ProgramPlanner planner(reader, machine_file, segments, &link);
+      planner.before_segment = before_segment;
+      EXPECT_TRUE(planner.run());
+      link.break_off();
     });
-    const MotionEnd end = move(samples);
-    segments.stop();
-    return end;
-  }
-
-  /// Puts all segments into the buffer.
-  void plan_ahead() {
-    for (feedrate::PlannedSegment& segment : test::plan_text(circle_in_arcs())) {
-      segments.push(std::move(segment));
-    }
-    segments.close();
-  }
-
-  MotionEnd move(SampleQueue& to) {
     Pace pace;
     pace.is_wall_clock = true;
     pace.settle_time = 0.01;
     pace.realtime.max_late_periods = 1000000;  // however busy the computer is
     pace.realtime.max_stall = 1000.0;
-    return run_motion(cycle, interpolator, segments, to, limits, pace, stop).end;
+    pace.feed = &feed;
+    const MotionEnd end =
+        run_motion(cycle, interpolator, segments, to, machine_file.limits, pace, stop).end;
+    segments.stop();
+    return end;
   }
 
   /// How often it came to rest between start and end.
@@ -97,11 +88,22 @@ struct SlowRun {
     return count - (is_moving ? 0 : 1);
   }
 
-  Limits limits;
+  config::MachineFile machine_file;
   std::array<servo::Gains, hal::kServoAxes> gains{};
   SegmentQueue segments;
   SampleQueue samples{100000};
   interpolator::Interpolator interpolator{segments, 1e-3};
+  ReplanLink link;
+  OperatorPanel panel;
+  FeedControl feed{interpolator,
+                   segments,
+                   link,
+                   panel,
+                   {{},
+                    {machine_file.limits.acceleration, machine_file.limits.jerk},
+                    1e-3,
+                    true,
+                    machine_file.limits.feedrate}};
   test::FakeMachine machine;
   Cycle cycle{interpolator, &machine, gains, 1e-3};
   std::atomic<bool> stop{false};
@@ -114,18 +116,19 @@ void expect_whole_circle(const SlowRun& run) {
   }
   const auto s = along_circle(run.machine.references);
   EXPECT_NEAR(s.back(), 2.0 * std::numbers::pi * kRadius, 1e-6);
-  // Going on from rest, the plan's time runs at a growing rate, which adds a little.
-  test::expect_within_limits(s, 1e-3, run.limits, 40.0, 0.1);
+  test::expect_within_limits(s, 1e-3, run.machine_file.limits, 40.0);
 }
 
 TEST(SlowPlanner, MachineBrakesOnThePathGoesOnAndReachesTheEnd) {
   SlowRun run(8);
   // 40 mm/s need an arc every 14 ms; these come every 25 ms, in fits and starts.
-  const MotionEnd end = run.run([](int i) {
-    if (i % 10 == 9) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(250));
-    }
-  });
+  const MotionEnd end = run.run(
+      [](std::int64_t i) {
+        if (i % 10 == 9) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        }
+      },
+      run.samples);
   EXPECT_EQ(end, MotionEnd::kDone);
   EXPECT_GE(run.pauses(), 1);
   expect_whole_circle(run);
@@ -133,32 +136,54 @@ TEST(SlowPlanner, MachineBrakesOnThePathGoesOnAndReachesTheEnd) {
 
 TEST(SlowPlanner, APlannerThatIsAheadIsNotNoticed) {
   SlowRun run(200);
-  run.plan_ahead();
-  EXPECT_EQ(run.move(run.samples), MotionEnd::kDone);
+  EXPECT_EQ(run.run({}, run.samples), MotionEnd::kDone);
   EXPECT_EQ(run.pauses(), 0);
   expect_whole_circle(run);
 }
 
 TEST(SlowPlanner, StopWhileItWaitsEndsAtRest) {
   SlowRun run(20);
-  const MotionEnd end = run.run([&](int i) {
-    if (i == 30) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(700));
-      run.stop = true;
-    }
-  });
+  const MotionEnd end = run.run(
+      [&](std::int64_t i) {
+        if (i == 30) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(700));
+          run.stop = true;
+        }
+      },
+      run.samples);
   EXPECT_EQ(end, MotionEnd::kInterrupted);
   const auto s = along_circle(run.machine.references);
   EXPECT_GT(s.back(), 5.0);
   EXPECT_LT(s.back(), 31.0 * 2.0 * std::numbers::pi * kRadius / kArcs);
-  test::expect_within_limits(s, 1e-3, run.limits, 40.0, 0.1);
+  test::expect_within_limits(s, 1e-3, run.machine_file.limits, 40.0);
 }
 
 TEST(SlowPlanner, SamplesThatNobodyTakesEndTheMotion) {
   SlowRun run(200);
   SampleQueue few{10};
-  run.plan_ahead();
-  EXPECT_EQ(run.move(few), MotionEnd::kTripped);
+  EXPECT_EQ(run.run({}, few), MotionEnd::kTripped);
+}
+
+TEST(SlowPlanner, OperatorsOverrideAndHoldAreFollowedWhileItMoves) {
+  SlowRun run(40);
+  std::jthread operating([&](const std::stop_token& ended) {
+    std::mt19937 random(3);
+    for (int i = 0; i < 12 && !ended.stop_requested(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(60 + random() % 120));
+      run.panel.set_override(20.0 + static_cast<double>(random() % 180));
+      run.panel.hold(i % 4 == 2);
+    }
+    run.panel.hold(false);
+  });
+  EXPECT_EQ(run.run({}, run.samples), MotionEnd::kDone);
+  operating.request_stop();
+  for (const Vec3& p : run.machine.references) {
+    ASSERT_NEAR(std::hypot(p.x() + kRadius, p.y()), kRadius, 1e-6);
+  }
+  const auto s = along_circle(run.machine.references);
+  EXPECT_NEAR(s.back(), 2.0 * std::numbers::pi * kRadius, 1e-6);
+  test::expect_within_limits(s, 1e-3, run.machine_file.limits, 80.0);
+  EXPECT_GE(run.feed.records().size(), 3U);
 }
 
 }  // namespace

@@ -128,16 +128,47 @@ TEST(SegmentQueue, IsPrimedWhenFullOrComplete) {
   EXPECT_TRUE(complete.is_finished());
 }
 
-TEST(SegmentQueue, KnowsTheLengthThatWaits) {
+TEST(SegmentQueue, KnowsHowFarThePathIsKnown) {
   SegmentQueue queue(8);
-  EXPECT_EQ(queue.buffered_length(), 0.0);
+  EXPECT_EQ(queue.reach(0), 0.0);
   queue.push(segment(0, 1.5));
   queue.push(segment(1, 2.25));
-  EXPECT_EQ(queue.buffered_length(), 3.75);
+  EXPECT_EQ(queue.reach(0), 3.75);
   queue.release(queue.next());
-  EXPECT_EQ(queue.buffered_length(), 2.25);
-  queue.release(queue.next());
-  EXPECT_EQ(queue.buffered_length(), 0.0);
+  EXPECT_EQ(queue.reach(0), 3.75);
+  queue.set_reach(1, 2.0);
+  EXPECT_EQ(queue.reach(1), 2.0);
+  EXPECT_EQ(queue.reach(0), 3.75);
+}
+
+TEST(SegmentQueue, AnotherPlanPassesOverWhatIsLeftOfTheOneBefore) {
+  SegmentQueue queue(8);
+  for (std::int64_t i = 0; i < 4; ++i) {
+    queue.push(segment(i));
+  }
+  queue.close(0);
+  feedrate::PlannedSegment other = segment(1);
+  other.plan = 1;
+  EXPECT_TRUE(queue.try_push(other, 1, 2.0));
+  const feedrate::PlannedSegment* first = queue.next();
+  EXPECT_EQ(first->index, 0);
+  queue.adopt(1);
+  EXPECT_FALSE(queue.is_finished());
+  const feedrate::PlannedSegment* next = queue.next();
+  ASSERT_NE(next, nullptr);
+  EXPECT_EQ(next->index, 1);
+  EXPECT_EQ(next->plan, 1);
+  EXPECT_FALSE(queue.is_finished());
+  queue.close(1);
+  EXPECT_TRUE(queue.is_finished());
+  // Those that were passed over are free again: the buffer takes a whole round.
+  queue.release(first);
+  queue.release(next);
+  for (std::int64_t i = 0; i < 9; ++i) {
+    feedrate::PlannedSegment more = segment(i);
+    more.plan = 1;
+    EXPECT_TRUE(queue.try_push(more, 1, 0.0)) << i;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#include "runtime/motion_end.hpp"
+
+#include <fmt/format.h>
+
+namespace twin::runtime {
+
+std::optional<Error> describe_end(const MotionResult& motion, const trace::Sample& last,
+                                  const hal::Machine* hal) {
+  const auto at = fmt::format("at t = {:.3f} s, NC line {}", last.t, last.line);
+  switch (motion.end) {
+    case MotionEnd::kDone:
+      return std::nullopt;
+    case MotionEnd::kInterrupted:
+      return fail(ErrorCode::kInterrupted, "interrupted: stopped on the path " + at).value();
+    case MotionEnd::kMachineError:
+      return fail(ErrorCode::kMachine, fmt::format("machine '{}' failed {}: {}", hal->info().name,
+                                                   at, hal->last_error()))
+          .value();
+    case MotionEnd::kTripped:
+      return fail(ErrorCode::kMachine, safety::describe(*motion.trip)).value();
+  }
+  return std::nullopt;
+}
+
+}  // namespace twin::runtime

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "core/error.hpp"
+#include "hal/machine.hpp"
+#include "runtime/motion.hpp"
+#include "trace/sample.hpp"
+
+namespace twin::runtime {
+
+/// Why a motion ended early, for the user; nothing if it did not.
+///
+/// @param last  what was recorded last
+/// @param hal   null: there was no machine
+std::optional<Error> describe_end(const MotionResult& motion, const trace::Sample& last,
+                                  const hal::Machine* hal);
+
+}  // namespace twin::runtime

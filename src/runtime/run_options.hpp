@@ -1,0 +1,17 @@
+#pragma once
+
+#include "gcode/reader.hpp"
+#include "runtime/feed_control.hpp"
+#include "runtime/motion.hpp"
+#include "runtime/recorder.hpp"
+#include "runtime/run.hpp"
+
+namespace twin::runtime {
+
+/// What the parts of a run are told of its request.
+gcode::ReaderOptions reader_options(const RunRequest& request);
+FeedControl::Options feed_options(const RunRequest& request);
+Pace pace_of(const RunRequest& request);
+Recorder::Options recorder_options(const RunRequest& request);
+
+}  // namespace twin::runtime

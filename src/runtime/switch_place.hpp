@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "feedrate/phase.hpp"
+#include "interpolator/interpolator.hpp"
+
+namespace twin::runtime {
+
+/// The phases of one planned segment.
+struct SegmentPhases {
+  std::int64_t index = 0;  ///< of the segment
+  double length = 0.0;     ///< of the segment [mm]
+  std::vector<feedrate::Phase> phases;
+};
+
+/// A place of a plan without tangential acceleration, where another plan may go on.
+struct SwitchPlace {
+  std::int64_t segment = 0;  ///< in which the present plan ends there
+  std::size_t phase = 0;     ///< its last phase of this segment
+  double time = 0.0;         ///< into this phase [s]
+  bool is_at_end = false;    ///< at the segment's end: the other plan starts in the next segment
+  double s = 0.0;            ///< from the segment's start [mm]
+  double v = 0.0;            ///< [mm/s]
+  double after = 0.0;        ///< time of motion until there [s]
+};
+
+/// The first such place at least `margin` after another one.
+///
+/// Within a phase of constant jerk it is at t = -a / j; in a hold it is anywhere, so exactly at the
+/// margin. A rest is no place inside but at its end.
+///
+/// @param plan       successive segments, the one of `from` among them
+/// @param margin     time of motion [s]
+/// @param tolerance  of a tangential acceleration that is none [mm/s^2]
+/// @returns nothing where the plan known so far has no such place
+std::optional<SwitchPlace> find_switch_place(const std::deque<SegmentPhases>& plan,
+                                             const interpolator::PlanPlace& from, double margin,
+                                             double tolerance);
+
+}  // namespace twin::runtime

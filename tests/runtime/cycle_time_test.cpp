@@ -1,0 +1,45 @@
+#include "runtime/cycle_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "hal/ideal/ideal_machine.hpp"
+#include "tests/runtime/run_fixture.hpp"
+
+namespace twin::runtime {
+namespace {
+
+/// Every NC program that is shipped, with every planner.
+class CycleTime : public RunProgram, public ::testing::WithParamInterface<Planner> {};
+
+TEST_P(CycleTime, IsWhatTheRunTakesWithinAPeriod) {
+  request.machine.path.planner = GetParam();
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TWIN_SOURCE_DIR "/nc_programs")) {
+    if (entry.path().extension() != ".nc") {
+      continue;
+    }
+    ++count;
+    request.program = entry.path();
+    const auto plan = estimate_plan(request.program, {}, request.machine, nullptr);
+    ASSERT_TRUE(plan) << to_string(plan.error());
+    double shown = 0.0;
+    request.estimated = [&](double time) { shown = time; };
+    hal::IdealMachine machine;
+    const auto result = run(&machine);
+    ASSERT_TRUE(result && !result->failure) << entry.path();
+    EXPECT_EQ(shown, plan->time);
+    EXPECT_EQ(result->summary.planned_time, plan->time);
+    EXPECT_GE(result->summary.run->machining_time, plan->time - 1e-9) << entry.path();
+    EXPECT_LT(result->summary.run->machining_time, plan->time + request.machine.period)
+        << entry.path();
+  }
+  EXPECT_GT(count, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planners, CycleTime,
+                         ::testing::Values(Planner::kPaper, Planner::kCertified));
+
+}  // namespace
+}  // namespace twin::runtime

@@ -1,0 +1,137 @@
+#include "tests/runtime/override_run.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "metrics/limit_audit.hpp"
+#include "runtime/feed_control.hpp"
+#include "runtime/program_planner.hpp"
+
+namespace twin::test {
+namespace {
+
+using runtime::FeedControl;
+
+constexpr double kOffPath = 2e-5;     // chords in place of arcs [mm]
+constexpr double kFinePeriod = 1e-4;  // [s]
+constexpr double kExcess = 1.005;
+constexpr int kPhases = 10;
+
+double distance_to_chord(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double square = d.squaredNorm();
+  const double share = square > 0.0 ? std::clamp((p - a).dot(d) / square, 0.0, 1.0) : 0.0;
+  return (p - a - share * d).norm();
+}
+
+metrics::AuditPeaks audit(const OverrideRun& run, const config::MachineFile& machine) {
+  metrics::LimitAudit audit(machine.period, machine.limits);
+  for (const trace::Sample& sample : run.samples) {
+    audit.add(sample.command);
+  }
+  return audit.finish();
+}
+
+void raise(const metrics::AuditPeaks& to, metrics::AuditPeaks& peaks) {
+  for (const auto member :
+       {&metrics::AuditPeaks::feedrate, &metrics::AuditPeaks::tangential_acceleration,
+        &metrics::AuditPeaks::tangential_jerk, &metrics::AuditPeaks::normal_acceleration}) {
+    peaks.*member = std::max(peaks.*member, to.*member);
+  }
+}
+
+}  // namespace
+
+OverrideRun run_with_overrides(const std::string& text, const config::MachineFile& machine,
+                               const std::vector<runtime::OverrideChange>& schedule) {
+  auto reader = gcode::Reader::from_text(text, "text");
+  const auto look_ahead = static_cast<std::size_t>(machine.path.look_ahead);
+  runtime::SegmentQueue segments(look_ahead, look_ahead + 2);
+  interpolator::Interpolator interpolator(segments, machine.period, machine.interpolation);
+  runtime::ReplanLink link;
+  runtime::OperatorPanel panel;
+  const Limits& limits = machine.limits;
+  FeedControl feed(
+      interpolator, segments, link, panel,
+      {schedule, {limits.acceleration, limits.jerk}, machine.period, false, limits.feedrate});
+  runtime::Cycle cycle(interpolator, nullptr, machine.servo, machine.period);
+  runtime::SampleQueue samples(1 << 17);
+  std::atomic<bool> stop{false};
+  OverrideRun run;
+  {
+    const std::jthread planning([&] {
+      runtime::ProgramPlanner planner(reader, machine, segments, &link, feed.first_percent());
+      const auto figures = planner.run();
+      EXPECT_TRUE(figures) << (figures ? "" : to_string(figures.error()));
+      stop = stop || !figures;
+      link.break_off();
+    });
+    runtime::Pace pace;
+    pace.period = machine.period;
+    pace.feed = &feed;
+    run.end = run_motion(cycle, interpolator, segments, samples, limits, pace, stop).end;
+    segments.stop();
+  }
+  run.records = feed.records();
+  trace::Sample sample;
+  while (samples.pop(sample)) {
+    run.samples.push_back(sample);
+  }
+  return run;
+}
+
+PlainRun run_plain(const std::string& text, const config::MachineFile& machine) {
+  PlainRun plain{run_with_overrides(text, machine, {}), {}, {}};
+  for (int k = 0; k < kPhases; ++k) {
+    const auto rest = fmt::format("G04 P{:.6f}\n", machine.period * k / kPhases);
+    raise(audit(run_with_overrides(rest + text, machine, {}), machine), plain.peaks);
+  }
+  config::MachineFile fine = machine;
+  fine.period = kFinePeriod;
+  for (const trace::Sample& sample : run_with_overrides(text, fine, {}).samples) {
+    plain.path.push_back(sample.command);
+  }
+  return plain;
+}
+
+namespace {
+
+void expect_limits_kept(const OverrideRun& run, const metrics::AuditPeaks& before,
+                        const config::MachineFile& machine) {
+  const metrics::AuditPeaks peaks = audit(run, machine);
+  const Limits& limits = machine.limits;
+  const auto allowed = [](double limit, double was) { return kExcess * std::max(limit, was); };
+  EXPECT_LE(peaks.tangential_acceleration,
+            allowed(limits.acceleration, before.tangential_acceleration));
+  EXPECT_LE(peaks.tangential_jerk, allowed(limits.jerk, before.tangential_jerk));
+  EXPECT_LE(peaks.normal_acceleration, allowed(limits.acceleration, before.normal_acceleration));
+  EXPECT_LE(peaks.feedrate, limits.feedrate * (1.0 + 1e-9));
+}
+
+}  // namespace
+
+void expect_same_path_within_limits(const OverrideRun& run, const PlainRun& plain,
+                                    const config::MachineFile& machine) {
+  ASSERT_EQ(run.end, runtime::MotionEnd::kDone);
+  ASSERT_LT((run.samples.back().command - plain.path.back()).norm(), 1e-9);
+  ASSERT_EQ(run.samples.back().feedrate, 0.0);
+  expect_limits_kept(run, plain.peaks, machine);
+  std::size_t at = 0;  // chord of the path
+  for (const trace::Sample& sample : run.samples) {
+    const Vec3& p = sample.command;
+    const std::size_t last = std::min(at + 5000, plain.path.size() - 1);
+    std::size_t i = at;
+    while (i < last && distance_to_chord(p, plain.path[i], plain.path[i + 1]) > kOffPath) {
+      ++i;
+    }
+    ASSERT_LT(i, last) << "off the path or back on it: t = " << sample.t << " s, line "
+                       << sample.line;
+    at = i;
+  }
+}
+
+}  // namespace twin::test
