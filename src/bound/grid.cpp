@@ -167,10 +167,14 @@ void Divider::divide_arc(const path::Arc& arc) {
     append_free(segment_.length, middle.limit, limits_.acceleration);
     return;
   }
-  constexpr int kPieces = 16;  // before halving, so that no turn looks small for being a whole one
-  Place begin = place_at(0.0);
-  for (int i = 1; i <= kPieces; ++i) {
-    const Place end = place_at(segment_.length * i / kPieces);
+  // Before halving there is at least a piece for each radian, so that no whole turn looks like
+  // none.
+  const Place begin_of_arc = place_at(0.0);
+  const double turn = segment_.length * begin_of_arc.at.curvature.norm();
+  const int pieces = std::max(16, static_cast<int>(std::ceil(turn)));
+  Place begin = begin_of_arc;
+  for (int i = 1; i <= pieces; ++i) {
+    const Place end = place_at(segment_.length * i / pieces);
     halve(begin.s, begin, end.s, end, place_at, 0);
     begin = end;
   }

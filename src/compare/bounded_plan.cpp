@@ -11,9 +11,15 @@
 namespace twin::compare {
 namespace {
 
-constexpr int kStepsOfPhase = 8;
+constexpr double kStepOfFeedrate = 1.0;  // between two rows of a phase, about [mm/s]
+constexpr double kMostSteps = 8.0;       // of a phase
 
+/// Adds a row, unless it repeats the last.
 void add_row(trace::Table& table, double s, double v, double t) {
+  const std::size_t rows = table.rows();
+  if (rows > 0 && table.at(rows - 1, 0) == s && table.at(rows - 1, 1) == v) {
+    return;
+  }
   table.values.insert(table.values.end(), {s, v, t});
 }
 
@@ -24,7 +30,9 @@ void add_segment(const feedrate::PlannedSegment& planned, double& s, double& t,
     return;
   }
   for (const feedrate::Phase& phase : planned.phases) {
-    const int steps = phase.a == 0.0 && phase.j == 0.0 ? 1 : kStepsOfPhase;
+    const double change = feedrate::motion_at(phase, phase.duration).v - phase.v;
+    const double wanted = std::ceil(std::abs(change) / kStepOfFeedrate);
+    const int steps = static_cast<int>(std::clamp(wanted, 1.0, kMostSteps));
     for (int i = 0; i <= steps; ++i) {
       const double at = phase.duration * i / steps;
       const feedrate::PathMotion motion = feedrate::motion_at(phase, at);
