@@ -19,6 +19,7 @@ struct BlockDemand {
   std::int64_t line = 0;      ///< NC line
   double feedrate = 0.0;      ///< [mm/s]
   double corner_error = 0.0;  ///< [mm]
+  double deviation = 0.0;     ///< of the base path at its end from the block's own [mm]
   bool is_rapid = false;
 
   bool has_same_demands(const BlockDemand& other) const noexcept {
@@ -64,7 +65,9 @@ class SegmentWriter {
 
   Builder::Sink sink_;
   smoothing::SlidingVector<BlockDemand> blocks_;  // not yet over
+  BlockDemand latest_;                            // the last one that was over
   std::size_t at_ = 0;                            // block of the latest piece
+  std::size_t first_ = 0;                         // block whose demands the segment under way has
   std::vector<nurbs::SpanCubic> pieces_;          // of the curve under way
   double deviation_ = 0.0;
   std::optional<Segment> last_;

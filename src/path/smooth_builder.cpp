@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "gcode/programmed_curve.hpp"
-#include "nurbs/refine.hpp"
-#include "path/curve_segment.hpp"
 #include "path/path_builder.hpp"
 #include "path/short_block.hpp"
 
 namespace twin::path {
 namespace {
 
-constexpr double kSagittaShare = 1.0;  // of the tolerance, at a smooth vertex
+constexpr double kSpeck = 0.01;         // of the tolerance, what leaving out lines may move
+constexpr double kLargestSpeck = 1e-3;  // [mm]
 
 }  // namespace
 
@@ -25,91 +23,158 @@ SmoothBuilder::SmoothBuilder(const PathSettings& settings, const PlanningModel& 
       joiner_(writer_),
       run_(joiner_) {}
 
-double SmoothBuilder::corner_tolerance(const gcode::Block& block) const {
-  return block.tolerance > 0.0 ? block.tolerance : model_.corner_error;
+/// What is left of the tolerance at corners, less that of the specks.
+double SmoothBuilder::corner_tolerance(double programmed) const {
+  return (1.0 - kSpeck) * (programmed > 0.0 ? programmed : model_.corner_error);
 }
 
-double SmoothBuilder::run_tolerance(const gcode::Block& block) const {
-  return block.tolerance > 0.0 ? block.tolerance
-                               : std::min(settings_.chord_error, model_.corner_error);
+double SmoothBuilder::run_tolerance(double programmed) const {
+  return (1.0 - kSpeck) *
+         (programmed > 0.0 ? programmed : std::min(settings_.chord_error, model_.corner_error));
 }
 
-bool SmoothBuilder::is_short(const gcode::Block& block) const {
-  return settings_.curves != CurveKind::kNone && block.motion == gcode::Motion::kLinear &&
-         (block.end - block.start).squaredNorm() <=
-             settings_.short_block_length * settings_.short_block_length;
+bool SmoothBuilder::continues_run(const LineBlock& line) const {
+  return !run_.is_empty() && line.tolerance == last_.tolerance && last_.can_be_short &&
+         line.can_be_short &&
+         bi_chord_error(last_.start, line.start, line.end) <= run_tolerance(line.tolerance);
 }
 
-bool SmoothBuilder::continues_run(const gcode::Block& block) const {
-  return !run_.is_empty() && block.tolerance == last_.tolerance && is_short(last_) &&
-         is_short(block) &&
-         bi_chord_error(last_.start, block.start, block.end) <=
-             kSagittaShare * run_tolerance(block);
-}
-
-/// The block's demands, and the base path length at its end.
-double SmoothBuilder::add_block(const gcode::Block& block, double length, std::int64_t number) {
+BlockDemand SmoothBuilder::demand_of(const gcode::Block& block, double length,
+                                     std::int64_t number) const {
   BlockDemand demand;
-  demand.end = length_ + length;
   demand.length = length;
   demand.number = number;
   demand.line = block.line;
   demand.is_rapid = block.motion == gcode::Motion::kRapid;
   demand.feedrate =
       demand.is_rapid ? limits_.rapid_feedrate : std::min(block.feedrate, limits_.feedrate);
-  demand.corner_error = corner_tolerance(block);
-  writer_.add_block(demand);
-  return demand.end;
+  demand.corner_error = block.tolerance > 0.0 ? block.tolerance : model_.corner_error;
+  return demand;
 }
 
-void SmoothBuilder::push_line(const gcode::Block& block, std::int64_t number) {
-  const double length = (block.end - block.start).norm();
-  if (!continues_run(block)) {
-    run_.finish();
-    joiner_.set_tolerance(corner_tolerance(block));
-    run_.start(block.start, length_, run_tolerance(block));
+/// Whether the latest line stays where it is and this block is left out, or takes its place.
+bool SmoothBuilder::leave_out(const gcode::Block& block, const BlockDemand& demand) {
+  const double speck = std::min(0.5 * kSpeck * run_tolerance(block.tolerance), kLargestSpeck);
+  if (!has_line_ || block.tolerance != line_.tolerance) {
+    return false;
   }
-  length_ = add_block(block, length, number);
-  run_.push(block.end);
-  last_ = block;
+  const double away = (block.end - line_.end).norm();
+  if (line_.length > speck && away > speck) {
+    return false;
+  }
+  line_.left_out.push_back(demand);
+  line_.last = block.end;
+  if (line_.length <= speck) {  // the line is a speck itself: it goes on
+    line_.demand.deviation = std::max(line_.demand.deviation, line_.length);
+    line_.end = block.end;
+    line_.length = (line_.end - line_.start).norm();
+  } else {
+    line_.left_out.back().deviation = away;
+  }
+  return true;
+}
+
+void SmoothBuilder::take_line(const gcode::Block& block, std::int64_t number) {
+  const double programmed = (block.end - block.start).norm();
+  BlockDemand demand = demand_of(block, programmed, number);
+  if (leave_out(block, demand)) {
+    return;
+  }
+  const Vec3 start = has_line_ && block.tolerance == line_.tolerance ? line_.end : block.start;
+  end_line(start != line_.end);
+  line_.start = start;
+  line_.end = line_.last = block.end;
+  line_.length = (line_.end - line_.start).norm();
+  line_.tolerance = block.tolerance;
+  line_.can_be_short = settings_.curves != CurveKind::kNone &&
+                       block.motion == gcode::Motion::kLinear &&
+                       line_.length <= settings_.short_block_length;
+  demand.deviation = (block.start - start).norm();
+  line_.demand = demand;
+  line_.left_out.clear();
+  has_line_ = true;
+}
+
+/// The latest line is complete.
+/// @param is_last  no line follows that would begin at its own end: it goes on to where the program
+/// is
+void SmoothBuilder::end_line(bool is_last) {
+  if (!has_line_) {
+    return;
+  }
+  if (is_last && line_.last != line_.end) {
+    line_.demand.deviation += (line_.last - line_.end).norm();
+    line_.end = line_.last;
+    line_.length = (line_.end - line_.start).norm();
+  }
+  has_line_ = false;
+  push_line(line_);
+}
+
+void SmoothBuilder::push_line(LineBlock& line) {
+  if (!continues_run(line)) {
+    run_.finish();
+    joiner_.set_tolerance(corner_tolerance(line.tolerance));
+    run_.start(line.start, length_, run_tolerance(line.tolerance));
+  }
+  length_ += line.length;
+  line.demand.end = length_;
+  writer_.add_block(line.demand);
+  for (BlockDemand& demand : line.left_out) {
+    demand.end = length_;
+    writer_.add_block(demand);
+  }
+  if (line.length > 0.0) {
+    run_.push(line.end);
+  }
+  last_.start = line.start;
+  last_.tolerance = line.tolerance;
+  last_.can_be_short = line.can_be_short;
+}
+
+void SmoothBuilder::end_lines() {
+  end_line(true);
+  run_.finish();
+}
+
+void SmoothBuilder::push_arc(const gcode::Block& block, std::int64_t number) {
+  end_lines();
+  joiner_.set_tolerance(corner_tolerance(block.tolerance));
+  const Arc arc = make_arc(block.arc);
+  BlockDemand demand = demand_of(block, arc.length, number);
+  const double begin = length_;
+  length_ += arc.length;
+  demand.end = length_;
+  writer_.add_block(demand);
+  joiner_.take_arc(arc, begin);
 }
 
 void SmoothBuilder::push(const gcode::Block& block) {
   const std::int64_t number = next_block_++;
   if (block.motion == gcode::Motion::kNurbs) {
-    push_nurbs(block, number);
+    for (Segment& segment :
+         make_nurbs_segments(block, number, settings_.max_segments, limits_, model_)) {
+      put_whole(std::move(segment));
+    }
   } else if (block.motion == gcode::Motion::kDwell ||
              block.path_mode == gcode::PathMode::kExactStop) {
     put_whole(make_segment(block, number, limits_, model_));
   } else if (block.motion == gcode::Motion::kArc) {
-    run_.finish();
-    joiner_.set_tolerance(corner_tolerance(block));
-    const Arc arc = make_arc(block.arc);
-    const double begin = length_;
-    length_ = add_block(block, arc.length, number);
-    joiner_.take_arc(arc, begin);
+    push_arc(block, number);
   } else {
-    push_line(block, number);
+    take_line(block, number);
   }
 }
 
 /// A segment that nothing is joined to.
 void SmoothBuilder::put_whole(Segment&& segment) {
-  run_.finish();
+  end_lines();
   joiner_.finish();
   writer_.whole(std::move(segment));
 }
 
-/// Pieces of at most max_segments spans, cut where the curvature jumps or the tangent turns.
-void SmoothBuilder::push_nurbs(const gcode::Block& block, std::int64_t number) {
-  for (Segment& segment :
-       make_nurbs_segments(block, number, settings_.max_segments, limits_, model_)) {
-    put_whole(std::move(segment));
-  }
-}
-
 void SmoothBuilder::finish() {
-  run_.finish();
+  end_lines();
   joiner_.finish();
   writer_.finish();
 }

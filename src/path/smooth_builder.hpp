@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
@@ -17,9 +19,12 @@ namespace twin::path {
 ///
 /// The tolerance of a block is that of its G64 P, else the corner error, in runs no more than the
 /// chord error. Two G01 blocks meet in a smooth vertex if neither is longer than a short block and
-/// the sagitta there (bi_chord_error) is no more than half the tolerance; at what feedrate does not
+/// the sagitta there (bi_chord_error) is no more than the tolerance; at what feedrate does not
 /// matter. Blocks between smooth vertices are a run (smoothing::RunSpline); all other vertices are
 /// corners (Joiner).
+///
+/// Lines that stay within half of kSpeck of the tolerance of where they begin are left out: the
+/// blocks before and after meet there. What that moves is part of the bound.
 ///
 /// Blocks of G61 stay as they are and end at rest, and so does what meets them at an angle; so do
 /// NURBS of the program.
@@ -32,13 +37,28 @@ class SmoothBuilder : public Builder {
   void finish() override;
 
  private:
-  double run_tolerance(const gcode::Block& block) const;
-  double corner_tolerance(const gcode::Block& block) const;
-  bool is_short(const gcode::Block& block) const;
-  bool continues_run(const gcode::Block& block) const;
-  double add_block(const gcode::Block& block, double length, std::int64_t number);
-  void push_line(const gcode::Block& block, std::int64_t number);
-  void push_nurbs(const gcode::Block& block, std::int64_t number);
+  /// A line, with the blocks behind it that are left out.
+  struct LineBlock {
+    Vec3 start = Vec3::Zero();
+    Vec3 end = Vec3::Zero();   // its own
+    Vec3 last = Vec3::Zero();  // of what is left out behind it
+    double length = 0.0;       // start to end [mm]
+    double tolerance = 0.0;    // of G64 P, 0: the machine's own [mm]
+    bool can_be_short = false;
+    BlockDemand demand;
+    std::vector<BlockDemand> left_out;
+  };
+
+  double run_tolerance(double programmed) const;
+  double corner_tolerance(double programmed) const;
+  bool continues_run(const LineBlock& block) const;
+  BlockDemand demand_of(const gcode::Block& block, double length, std::int64_t number) const;
+  void take_line(const gcode::Block& block, std::int64_t number);
+  bool leave_out(const gcode::Block& block, const BlockDemand& demand);
+  void end_line(bool is_last);
+  void push_line(LineBlock& line);
+  void end_lines();
+  void push_arc(const gcode::Block& block, std::int64_t number);
   void put_whole(Segment&& segment);
 
   PathSettings settings_;
@@ -47,7 +67,9 @@ class SmoothBuilder : public Builder {
   SegmentWriter writer_;
   Joiner joiner_;
   smoothing::RunSpline run_;
-  gcode::Block last_;    // last block of the run
+  LineBlock line_;  // the latest, not pushed yet
+  LineBlock last_;  // of the run
+  bool has_line_ = false;
   double length_ = 0.0;  // of the base path [mm]
   std::int64_t next_block_ = 0;
 };

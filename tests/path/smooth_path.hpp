@@ -106,17 +106,18 @@ inline double distance_to_block(const Vec3& p, const gcode::Block& block) {
 }
 
 /// Position, tangent and curvature go on from one segment to the next, unless the path rests.
-inline void expect_smooth_joints(const std::vector<Segment>& segments, double size = 1.0) {
+inline void expect_smooth_joints(const std::vector<Segment>& segments, double rounding = 1e-6) {
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const Segment& a = segments[i - 1];
     const Segment& b = segments[i];
-    ASSERT_LT((a.end.position - b.begin.position).norm(), 1e-9 * size) << "joint " << i;
+    ASSERT_LT((a.end.position - b.begin.position).norm(), 1e-9) << "joint " << i;
     if (a.stops_at_end || b.stops_at_end || a.length == 0.0 || b.length == 0.0) {
       continue;
     }
     ASSERT_LT((a.end.tangent - b.begin.tangent).norm(), 1e-6) << "joint " << i;
     const double larger = std::max(a.end.curvature.norm(), b.begin.curvature.norm());
-    ASSERT_LT((a.end.curvature - b.begin.curvature).norm(), 1e-6 + 1e-5 * larger) << "joint " << i;
+    ASSERT_LT((a.end.curvature - b.begin.curvature).norm(), rounding * (1.0 + larger))
+        << "joint " << i;
   }
 }
 

@@ -1,0 +1,157 @@
+#include "path/smooth_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/path/smooth_path.hpp"
+
+namespace twin::path {
+namespace {
+
+using testing::arc_block;
+using testing::circle_points;
+using testing::dwell_block;
+using testing::expect_marks;
+using testing::expect_smooth_joints;
+using testing::expect_within_bounds;
+using testing::is_curve;
+using testing::is_line;
+using testing::line_block;
+using testing::polyline;
+using testing::smooth;
+
+double length_of(const std::vector<Segment>& segments) {
+  double length = 0.0;
+  for (const Segment& segment : segments) {
+    length += segment.length;
+  }
+  return length;
+}
+
+TEST(SmoothBuilder, RoundsACornerOfLongLinesAndLeavesTheRestExact) {
+  const auto blocks = polyline({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}});
+  const auto segments = smooth(blocks);
+  ASSERT_EQ(segments.size(), 3U);
+  EXPECT_TRUE(is_line(segments[0]) && is_curve(segments[1]) && is_line(segments[2]));
+  EXPECT_EQ(segments[0].deviation, 0.0);
+  EXPECT_GT(segments[1].deviation, 0.0098);
+  EXPECT_FALSE(segments[1].stops_at_end);
+  expect_smooth_joints(segments);
+  expect_marks(segments, 2);
+  expect_within_bounds(segments, blocks, 0.01);
+  // The bump: |C'' | = |D| / h, |C'|^2 = 1/2 in the middle, D = sqrt 2, h = 6 e / D.
+  const double h = 6.0 * 0.01 * 0.99 * 0.999 / std::sqrt(2.0);
+  const Segment& corner = segments[1];
+  EXPECT_NEAR(testing::place(corner, 0.5 * corner.length).curvature.norm(),
+              std::sqrt(2.0) / h * 2.0, 1e-3 / h);
+}
+
+TEST(SmoothBuilder, TakesTheToleranceOfG64P) {
+  for (const double tolerance : {0.002, 0.05}) {
+    auto blocks = polyline({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}});
+    for (gcode::Block& block : blocks) {
+      block.tolerance = tolerance;
+    }
+    const auto segments = smooth(blocks);
+    ASSERT_EQ(segments.size(), 3U);
+    EXPECT_LE(segments[1].deviation, tolerance);
+    EXPECT_GT(segments[1].deviation, 0.98 * tolerance);
+  }
+}
+
+TEST(SmoothBuilder, ComesToRestWhereThePathTurnsBack) {
+  const auto segments = smooth(polyline({{0, 0, 0}, {20, 0, 0}, {5, 0, 0}}));
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_TRUE(segments[0].stops_at_end);
+  EXPECT_TRUE(is_line(segments[0]) && is_line(segments[1]));
+}
+
+TEST(SmoothBuilder, KeepsExactStopsSharp) {
+  auto blocks = polyline({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}});
+  blocks[1].path_mode = gcode::PathMode::kExactStop;
+  const auto segments = smooth(blocks);
+  ASSERT_EQ(segments.size(), 3U);
+  EXPECT_TRUE(std::all_of(segments.begin(), segments.end(), is_line));
+  EXPECT_TRUE(segments[0].stops_at_end && segments[1].stops_at_end);
+  EXPECT_EQ(segments[1].length, 20.0);
+}
+
+TEST(SmoothBuilder, BlendsTheCurvatureJumpOfATangentArc) {
+  std::vector<gcode::Block> blocks = polyline({{0, 0, 0}, {20, 0, 0}});
+  blocks.push_back(arc_block({20, 0, 0}, {1, 0, 0}, 8.0, 2.0, true));
+  const auto segments = smooth(blocks);
+  ASSERT_EQ(segments.size(), 3U);
+  EXPECT_TRUE(std::holds_alternative<Arc>(segments[2].geometry));
+  expect_smooth_joints(segments);
+  expect_within_bounds(segments, blocks, 0.01);
+  expect_marks(segments, 2);
+}
+
+TEST(SmoothBuilder, ChangesTheFeedrateWithoutMovingThePath) {
+  auto points = circle_points(30.0, 0.3, 200);
+  const auto blocks = polyline(points);
+  auto slower = blocks;
+  for (std::size_t i = 80; i < slower.size(); ++i) {
+    slower[i].feedrate = 20.0;
+  }
+  const auto a = smooth(blocks);
+  const auto b = smooth(slower);
+  EXPECT_NEAR(length_of(a), length_of(b), 1e-9);
+  expect_smooth_joints(b);
+  expect_marks(b, 200);
+  for (const Segment& segment : b) {
+    for (const BlockMark& mark : segment.marks) {
+      EXPECT_EQ(segment.feedrate, mark.block < 80 ? 50.0 : 20.0);
+    }
+  }
+}
+
+TEST(SmoothBuilder, MakesTheSameLineOfAnyNumberOfPieces) {
+  for (const int count : {1, 10, 2000, 20000}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i <= count; ++i) {
+      points.push_back(400.0 * i / count * Vec3(0.6, 0.8, 0.0));
+    }
+    const auto segments = smooth(polyline(points));
+    EXPECT_NEAR(length_of(segments), 400.0, 1e-9);
+    for (const Segment& segment : segments) {
+      EXPECT_LT(testing::place(segment, 0.5 * segment.length).curvature.norm(), 1e-9);
+      EXPECT_LT(segment.deviation, 1e-9);
+    }
+  }
+}
+
+TEST(SmoothBuilder, NeedsFarFewerSpansThanBlocks) {
+  const auto segments = smooth(polyline(circle_points(30.0, 0.26, 2000)));
+  std::size_t spans = 0;
+  for (const Segment& segment : segments) {
+    spans += std::get<FittedCurve>(segment.geometry).curve.control_points().size() - 3;
+  }
+  EXPECT_LT(spans, 200U);
+  EXPECT_LT(segments.size(), 10U);
+}
+
+TEST(SmoothBuilder, LeavesOutSpecks) {
+  auto points =
+      std::vector<Vec3>{{0, 0, 0}, {10, 0, 0}, {10, 1e-5, 0}, {20, 0, 0}, {20 + 1e-6, 0, 0}};
+  const auto segments = smooth(polyline(points));
+  expect_marks(segments, 4);
+  EXPECT_EQ(segments.back().end.position, points.back());
+  for (const Segment& segment : segments) {
+    EXPECT_LT(testing::place(segment, 0.5 * segment.length).curvature.norm(), 1e-3);
+  }
+  EXPECT_TRUE(std::any_of(segments.begin(), segments.end(),
+                          [](const Segment& segment) { return segment.deviation >= 1e-5; }));
+}
+
+TEST(SmoothBuilder, RestsAtDwells) {
+  std::vector<gcode::Block> blocks = polyline(circle_points(10.0, 0.3, 20));
+  blocks.push_back(dwell_block(blocks.back().end, 0.5));
+  blocks.push_back(line_block(blocks.back().end, {0, 0, 0}));
+  const auto segments = smooth(blocks);
+  ASSERT_GE(segments.size(), 3U);
+  EXPECT_EQ(segments[segments.size() - 2].dwell, 0.5);
+  expect_marks(segments, 22);
+}
+
+}  // namespace
+}  // namespace twin::path
