@@ -83,7 +83,8 @@ void SegmentWriter::set_demands(Segment& segment) const {
 template <class PlaceOf>
 void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place_of) {
   set_demands(segment);
-  double moved = 0.0;
+  double moved = tail_deviation_;
+  tail_deviation_ = 0.0;
   while (!blocks_.is_empty()) {
     const BlockDemand& block = latest_ = blocks_.front();
     const bool is_inside = block.end < end - kSame;
@@ -91,6 +92,7 @@ void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place
     const double s = is_inside ? std::min(place_of(block.end), segment.length) : segment.length;
     segment.marks.push_back({s, block.length, block.number, block.line});
     moved = std::max(moved, block.deviation);
+    tail_deviation_ = is_inside ? 0.0 : std::max(tail_deviation_, block.deviation);
     if (goes_on) {
       break;
     }
@@ -102,7 +104,8 @@ void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place
   if (segment.marks.empty()) {  // what is left behind the end of the last block, all but
     segment.marks.push_back({segment.length, latest_.length, latest_.number, latest_.line});
   }
-  segment.deviation += moved;
+  const double ahead = blocks_.is_empty() ? 0.0 : blocks_.front().deviation;
+  segment.deviation += std::max(moved, ahead);
 }
 
 void SegmentWriter::exact(Segment&& segment, double begin, double end) {

@@ -70,6 +70,7 @@ class SegmentWriter {
   std::size_t first_ = 0;                         // block whose demands the segment under way has
   std::vector<nurbs::SpanCubic> pieces_;          // of the curve under way
   double deviation_ = 0.0;
+  double tail_deviation_ = 0.0;  // of the blocks at the end of the last segment
   std::optional<Segment> last_;
 };
 
