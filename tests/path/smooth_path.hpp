@@ -169,10 +169,16 @@ inline void expect_within_bounds(const std::vector<Segment>& segments,
   for (std::size_t n = 0; n < segments.size(); ++n) {
     const Segment& segment = segments[n];
     ASSERT_LE(segment.deviation, tolerance * (1.0 + 1e-9)) << "segment " << n;
-    const auto first =
-        static_cast<std::size_t>(std::max<std::int64_t>(segment.marks.front().block - 1, 0));
-    const auto last =
-        std::min(static_cast<std::size_t>(segment.marks.back().block) + 1, blocks.size() - 1);
+    // The blocks of the marks, and a millimetre's thousandth and a block more on either side.
+    auto first = static_cast<std::size_t>(segment.marks.front().block);
+    auto last = static_cast<std::size_t>(segment.marks.back().block);
+    const auto length = [&](std::size_t i) { return (blocks[i].end - blocks[i].start).norm(); };
+    for (double more = 0.0; first > 0 && more < 1e-3;) {
+      more += length(--first);
+    }
+    for (double more = 0.0; last + 1 < blocks.size() && more < 1e-3;) {
+      more += length(++last);
+    }
     for (const Vec3& p : path_points(segment)) {
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t i = first; i <= last; ++i) {
