@@ -87,7 +87,7 @@ void Joiner::give_away_run() {
   while (run.spans.size() > kFewestHeld &&
          (run.end - run.spans.front().cubic.end >= kWidest || run.spans.size() > kMostHeld)) {
     const Span& span = run.spans.front();
-    if (span.cubic.end - run.from >= smoothing::kShortestPiece) {
+    if (span.cubic.end - run.from >= smoothing::shortest_part(span.cubic)) {
       writer_.cubic(smoothing::part_of(span.cubic, run.from, span.cubic.end), span.deviation);
       run.from = span.cubic.end;
     }
@@ -189,20 +189,19 @@ void Joiner::append_pieces(const Element& element, double begin, double end) {
     return;
   }
   double from = begin;
-  bool is_first = true;
+  const std::size_t first = pieces_.size();
   for (std::size_t i = element.spans.begin_index(); i < element.spans.end_index(); ++i) {
     const nurbs::SpanCubic& span = element.spans[i].cubic;
     const double to = std::min(span.end, end);
-    if (to - from < smoothing::kShortestPiece) {
-      if (!is_first && to > from) {
-        pieces_.back().end = to;  // the same polynomial goes on: no more than a rounding
-        from = to;
-      }
-      continue;
+    if (to - from >= smoothing::shortest_part(span) || (to == end && pieces_.size() == first)) {
+      pieces_.push_back(smoothing::part_of(span, from, to));
+      from = to;
+    } else if (to > from && pieces_.size() > first) {
+      pieces_.back().end = from = to;
     }
-    pieces_.push_back(smoothing::part_of(span, from, to));
-    is_first = false;
-    from = to;
+    if (to == end) {
+      return;
+    }
   }
 }
 

@@ -9,16 +9,16 @@
 namespace twin::path {
 namespace {
 
-constexpr std::size_t kMostSpans = 32;                     // of a curve
-constexpr double kSame = 0.5 * smoothing::kShortestPiece;  // places this near are one [mm]
-constexpr double kStraight = 1e-6;                         // turn that is none [rad]
+constexpr std::size_t kMostSpans = 32;  // of a curve
+constexpr double kSame = 1e-4;          // block ends this near to a segment's end are at it [mm]
+constexpr double kStraight = 1e-6;      // turn that is none [rad]
 
 }  // namespace
 
 /// Makes the block that goes on beyond s the current one; a curve ends where the demands change.
 void SegmentWriter::advance_to(double s) {
   at_ = std::max(at_, blocks_.begin_index());
-  while (at_ + 1 < blocks_.end_index() && blocks_[at_].end <= s + kSame) {
+  while (at_ + 1 < blocks_.end_index() && blocks_[at_].end <= s) {
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
       flush();
     }
@@ -28,19 +28,23 @@ void SegmentWriter::advance_to(double s) {
 
 void SegmentWriter::cubic(const nurbs::SpanCubic& piece, double deviation) {
   nurbs::SpanCubic rest = piece;
-  advance_to(rest.begin);
-  while (blocks_[at_].end < rest.end - kSame && at_ + 1 < blocks_.end_index()) {
+  const double least = smoothing::shortest_part(piece);
+  advance_to(rest.begin + least);
+  while (blocks_[at_].end < rest.end - least && at_ + 1 < blocks_.end_index()) {
     const double end = blocks_[at_].end;
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
       append(smoothing::part_of(rest, rest.begin, end), deviation);
       rest = smoothing::part_of(rest, end, rest.end);
     }
-    advance_to(end);
+    advance_to(end + least);
   }
   append(rest, deviation);
 }
 
 void SegmentWriter::append(const nurbs::SpanCubic& piece, double deviation) {
+  if (pieces_.empty()) {
+    first_ = at_;
+  }
   pieces_.push_back(piece);
   deviation_ = std::max(deviation_, deviation);
   if (pieces_.size() == kMostSpans) {
@@ -68,7 +72,8 @@ void SegmentWriter::flush() {
 }
 
 void SegmentWriter::set_demands(Segment& segment) const {
-  const BlockDemand& block = blocks_.front();
+  const BlockDemand& block =
+      blocks_.is_empty() ? latest_ : blocks_[std::max(first_, blocks_.begin_index())];
   segment.feedrate = block.feedrate;
   segment.corner_error = block.corner_error;
   segment.is_rapid = block.is_rapid;
@@ -78,14 +83,16 @@ void SegmentWriter::set_demands(Segment& segment) const {
 template <class PlaceOf>
 void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place_of) {
   set_demands(segment);
-  double moved = 0.0;
+  double moved = tail_deviation_;
+  tail_deviation_ = 0.0;
   while (!blocks_.is_empty()) {
-    const BlockDemand& block = blocks_.front();
+    const BlockDemand& block = latest_ = blocks_.front();
     const bool is_inside = block.end < end - kSame;
     const bool goes_on = block.end > end + kSame;
     const double s = is_inside ? std::min(place_of(block.end), segment.length) : segment.length;
     segment.marks.push_back({s, block.length, block.number, block.line});
     moved = std::max(moved, block.deviation);
+    tail_deviation_ = is_inside ? 0.0 : std::max(tail_deviation_, block.deviation);
     if (goes_on) {
       break;
     }
@@ -94,12 +101,17 @@ void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place
       break;
     }
   }
-  segment.deviation += moved;
+  if (segment.marks.empty()) {  // what is left behind the end of the last block, all but
+    segment.marks.push_back({segment.length, latest_.length, latest_.number, latest_.line});
+  }
+  const double ahead = blocks_.is_empty() ? 0.0 : blocks_.front().deviation;
+  segment.deviation += std::max(moved, ahead);
 }
 
 void SegmentWriter::exact(Segment&& segment, double begin, double end) {
-  advance_to(begin);
+  advance_to(begin + kSame);
   flush();
+  first_ = at_;
   put_marks(segment, end, [&](double s) { return s - begin; });
   put(std::move(segment));
 }

@@ -65,9 +65,12 @@ class SegmentWriter {
 
   Builder::Sink sink_;
   smoothing::SlidingVector<BlockDemand> blocks_;  // not yet over
+  BlockDemand latest_;                            // the last one that was over
   std::size_t at_ = 0;                            // block of the latest piece
+  std::size_t first_ = 0;                         // block whose demands the segment under way has
   std::vector<nurbs::SpanCubic> pieces_;          // of the curve under way
   double deviation_ = 0.0;
+  double tail_deviation_ = 0.0;  // of the blocks at the end of the last segment
   std::optional<Segment> last_;
 };
 

@@ -9,7 +9,7 @@
 namespace twin::path {
 namespace {
 
-constexpr double kSpeck = 0.01;         // of the tolerance: a line too short to matter
+constexpr double kSpeck = 0.01;         // of the tolerance, what leaving out lines may move
 constexpr double kLargestSpeck = 1e-3;  // [mm]
 
 }  // namespace
@@ -54,7 +54,7 @@ BlockDemand SmoothBuilder::demand_of(const gcode::Block& block, double length,
 
 /// Whether the latest line stays where it is and this block is left out, or takes its place.
 bool SmoothBuilder::leave_out(const gcode::Block& block, const BlockDemand& demand) {
-  const double speck = kSpeck * std::min(run_tolerance(block.tolerance), kLargestSpeck / kSpeck);
+  const double speck = std::min(0.5 * kSpeck * run_tolerance(block.tolerance), kLargestSpeck);
   if (!has_line_ || block.tolerance != line_.tolerance) {
     return false;
   }

@@ -23,8 +23,8 @@ namespace twin::path {
 /// matter. Blocks between smooth vertices are a run (smoothing::RunSpline); all other vertices are
 /// corners (Joiner).
 ///
-/// Lines that do not leave kSpeck of the tolerance from where they begin are left out: the blocks
-/// before and after meet there. What that moves is part of the bound.
+/// Lines that stay within half of kSpeck of the tolerance of where they begin are left out: the
+/// blocks before and after meet there. What that moves is part of the bound.
 ///
 /// Blocks of G61 stay as they are and end at rest, and so does what meets them at an angle; so do
 /// NURBS of the program.

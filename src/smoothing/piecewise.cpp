@@ -30,7 +30,8 @@ nurbs::SpanCubic part_of(const nurbs::SpanCubic& p, double begin, double end) no
 void split_at(double s, std::vector<nurbs::SpanCubic>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const nurbs::SpanCubic whole = pieces[i];
-    if (s < whole.begin + kShortestPiece || s > whole.end - kShortestPiece) {
+    const double least = shortest_part(whole);
+    if (s < whole.begin + least || s > whole.end - least) {
       continue;
     }
     pieces[i].end = s;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -8,8 +9,15 @@
 
 namespace twin::smoothing {
 
-/// Places nearer to each other than this are one: no piece is shorter [mm].
+/// Pieces are never made shorter [mm].
 inline constexpr double kShortestPiece = 1e-6;
+
+/// Length below which no part of a piece is worth being a piece: its neighbour goes on over it. The
+/// third power of this share of the length is lost in the rounding of a C2 path, and the second
+/// derivative of a piece of width w is rounded as 1 / w^2 [mm].
+inline double shortest_part(const nurbs::SpanCubic& piece) noexcept {
+  return std::clamp(1e-3 * (piece.end - piece.begin), kShortestPiece, 1e-4);
+}
 
 /// The same polynomial between other ends, about the first of them.
 nurbs::SpanCubic part_of(const nurbs::SpanCubic& cubic, double begin, double end) noexcept;

@@ -140,6 +140,17 @@ TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {
   EXPECT_THAT(table, HasSubstr("note                      memory is not locked"));
 }
 
+TEST(Summary, CertifiedFiguresAreThereWithTheirPlannerOnly) {
+  Summary s = sample_summary();
+  EXPECT_FALSE(Json::parse(to_json(s)).contains("certified_deviation_um"));
+  EXPECT_EQ(to_table(s, Limits{}).find("certified"), std::string::npos);
+  s.certified = {0.0097, 331};
+  const Json json = Json::parse(to_json(s));
+  EXPECT_DOUBLE_EQ(json["certified_deviation_um"], 9.7);
+  EXPECT_EQ(json["segments"]["spans"], 331);
+  EXPECT_NE(to_table(s, Limits{}).find("9.700 um"), std::string::npos);
+}
+
 TEST(SummaryTable, PlanHasNoMachineRows) {
   Summary plan = sample_summary();
   plan.run.reset();

@@ -29,7 +29,6 @@ class RandomProgram {
  public:
   explicit RandomProgram(unsigned seed) : random_(seed) {
     if (uniform(random_, 0.0, 1.0) < 0.2) {
-      is_far_ = true;
       at_ = Vec3(uniform(random_, -5000.0, 5000.0), 3000.0, -100.0);
     }
     const int stretches = std::uniform_int_distribution<int>(1, 5)(random_);
@@ -39,7 +38,6 @@ class RandomProgram {
   }
 
   const std::vector<gcode::Block>& blocks() const { return blocks_; }
-  bool is_far() const { return is_far_; }
 
  private:
   void add_line(double length, double turn, double climb = 0.0) {
@@ -120,7 +118,6 @@ class RandomProgram {
   std::mt19937 random_;
   std::vector<gcode::Block> blocks_;
   Vec3 at_ = Vec3::Zero();
-  bool is_far_ = false;  // from the origin: coordinates have fewer decimals
   double heading_ = 0.3;
   double feedrate_ = 50.0;
   double tolerance_ = 0.0;
@@ -144,7 +141,7 @@ TEST(SmoothFuzz, RandomProgramsKeepTheirPromises) {
     for (const Segment& segment : segments) {
       ASSERT_TRUE(is_finite(segment));
     }
-    expect_smooth_joints(segments, program.is_far() ? 1e-3 : 1e-5);
+    expect_smooth_joints(segments);
     expect_marks(segments, static_cast<std::int64_t>(program.blocks().size()));
     expect_within_bounds(segments, program.blocks(), largest_tolerance(program.blocks()));
     if (HasFatalFailure()) {

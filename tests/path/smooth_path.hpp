@@ -105,8 +105,24 @@ inline double distance_to_block(const Vec3& p, const gcode::Block& block) {
   return away(0.5 * (low + high));
 }
 
+/// Rounding of the curvature of a segment: that of its coordinates over the square of its narrowest
+/// span [1/mm].
+inline double curvature_rounding(const Segment& segment) {
+  double rounding = 1e-9;
+  if (const auto* curve = std::get_if<FittedCurve>(&segment.geometry)) {
+    const std::vector<double>& u = curve->curve.knots();
+    for (std::size_t k = 1; k < u.size(); ++k) {
+      const double w = u[k] - u[k - 1];
+      if (w > 0.0) {
+        rounding = std::max(rounding, 1e-14 * (1.0 + segment.begin.position.norm()) / (w * w));
+      }
+    }
+  }
+  return rounding;
+}
+
 /// Position, tangent and curvature go on from one segment to the next, unless the path rests.
-inline void expect_smooth_joints(const std::vector<Segment>& segments, double rounding = 1e-6) {
+inline void expect_smooth_joints(const std::vector<Segment>& segments) {
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const Segment& a = segments[i - 1];
     const Segment& b = segments[i];
@@ -116,8 +132,8 @@ inline void expect_smooth_joints(const std::vector<Segment>& segments, double ro
     }
     ASSERT_LT((a.end.tangent - b.begin.tangent).norm(), 1e-6) << "joint " << i;
     const double larger = std::max(a.end.curvature.norm(), b.begin.curvature.norm());
-    ASSERT_LT((a.end.curvature - b.begin.curvature).norm(), rounding * (1.0 + larger))
-        << "joint " << i;
+    const double rounding = curvature_rounding(a) + curvature_rounding(b) + 1e-6 * larger;
+    ASSERT_LT((a.end.curvature - b.begin.curvature).norm(), rounding) << "joint " << i;
   }
 }
 
@@ -153,10 +169,16 @@ inline void expect_within_bounds(const std::vector<Segment>& segments,
   for (std::size_t n = 0; n < segments.size(); ++n) {
     const Segment& segment = segments[n];
     ASSERT_LE(segment.deviation, tolerance * (1.0 + 1e-9)) << "segment " << n;
-    const auto first =
-        static_cast<std::size_t>(std::max<std::int64_t>(segment.marks.front().block - 1, 0));
-    const auto last =
-        std::min(static_cast<std::size_t>(segment.marks.back().block) + 1, blocks.size() - 1);
+    // The blocks of the marks, and a millimetre's thousandth and a block more on either side.
+    auto first = static_cast<std::size_t>(segment.marks.front().block);
+    auto last = static_cast<std::size_t>(segment.marks.back().block);
+    const auto length = [&](std::size_t i) { return (blocks[i].end - blocks[i].start).norm(); };
+    for (double more = 0.0; first > 0 && more < 1e-3;) {
+      more += length(--first);
+    }
+    for (double more = 0.0; last + 1 < blocks.size() && more < 1e-3;) {
+      more += length(++last);
+    }
     for (const Vec3& p : path_points(segment)) {
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t i = first; i <= last; ++i) {

@@ -41,6 +41,20 @@ TEST(Planning, TimeOfOneLineIsThatOfTheSCurve) {
   EXPECT_EQ(figures->fallbacks, 0);
 }
 
+TEST(Planning, CountsBlocksSharedByCurvesOnceAndKeepsTheLargestBound) {
+  config::MachineFile machine;
+  machine.path.planner = Planner::kCertified;
+  const auto figures = plan(short_blocks(500), machine);
+  ASSERT_TRUE(figures);
+  EXPECT_EQ(figures->blocks, 500);
+  EXPECT_EQ(figures->short_length.count(), 500);
+  EXPECT_GT(figures->fitted_curves, 1);
+  EXPECT_GT(figures->spans, figures->fitted_curves);
+  EXPECT_GT(figures->certified_deviation.value_or(0.0), 0.0);
+  EXPECT_LE(figures->certified_deviation.value_or(1.0), machine.planning.corner_error);
+  EXPECT_FALSE(plan(short_blocks(500))->certified_deviation);
+}
+
 TEST(Planning, DwellsAndExactStopsAddUp) {
   const config::MachineFile machine;
   const double line = rest_to_rest(60.0, 50.0, machine.limits.jerk);
