@@ -16,6 +16,7 @@ namespace {
 constexpr double kPlaceRounding = 1e-9;       // [mm]
 constexpr double kBrakingDistances = 4.0;     // longest ones, of path between two plans
 constexpr std::size_t kMostSegments = 16384;  // of the window; then it is planned to rest
+constexpr std::size_t kFewestZones = 1024;    // between two plans for their number
 
 /// A zone within [begin, end], measured from begin.
 LimitZone part_of(LimitZone zone, double begin, double end) {
@@ -157,13 +158,15 @@ bool LookAhead::is_due() const {
   if (!is_certified_) {
     return window_.size() >= look_ahead_;
   }
-  return length_ >= due_length_ || window_.size() >= due_segments_;
+  return length_ >= due_length_ || window_.size() >= due_segments_ ||
+         work_.zones.size() >= due_zones_;
 }
 
 void LookAhead::wait_for_more() {
   const double braking = longest_descent(fastest_, fastest_, ramp_);
   due_length_ = length_ + kBrakingDistances * braking + horizon_margin();
   due_segments_ = std::max(window_.size() + look_ahead_, kMostSegments / 4);
+  due_zones_ = work_.zones.size() + std::max(work_.zones.size(), kFewestZones);
 }
 
 double LookAhead::horizon_margin() const { return kHidingPeriods * limits_.feedrate * period_; }

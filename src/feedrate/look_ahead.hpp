@@ -93,6 +93,7 @@ class LookAhead {
   double fastest_ = 0.0;              // feedrate asked for so far [mm/s]
   double due_length_ = 0.0;           // of the window at the next plan [mm]
   std::size_t due_segments_ = 0;      // in the window at the next plan
+  std::size_t due_zones_ = 1;         // of the window at the next plan
   std::int64_t next_index_ = 0;
   std::int64_t fallbacks_ = 0;
 };
