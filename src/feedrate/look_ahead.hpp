@@ -59,6 +59,7 @@ class LookAhead {
 
  private:
   double asked_feedrate(const path::Segment& segment) const;
+  RampLimits start_ramp() const;
   void take_limits(const path::Segment& segment);
   void append_limits(const path::Segment& segment, double feedrate, std::vector<LimitZone>& zones);
   void continue_zone(std::size_t index);
