@@ -50,7 +50,8 @@ bool Ascent::load_step() {
     return false;
   }
   // Counting down from 0 gives the largest index: no zone either.
-  for (; next_zone_<zones_.size(); next_zone_ += sign_> 0.0 ? 1 : static_cast<std::size_t>(-1)) {
+  const std::size_t next = sign_ > 0.0 ? 1 : static_cast<std::size_t>(-1);
+  for (; highest_ < ceiling_ && next_zone_ < zones_.size(); next_zone_ += next) {
     const LimitZone& zone = zones_[next_zone_];
     if (zone.limit <= highest_ || zone.end - zone.begin <= kPlaceRounding) {
       continue;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kBetweenSamples = 1.003;  // curvature between two samples over that at them
 constexpr double kSameLimit = 1.01;        // ratio of limits that share a zone
+constexpr double kTwistMargin = 1.05;      // of the third derivative, beside its bulge
 constexpr double kValley = 0.5;            // of a bend's peak curvature, where it ends
 constexpr double kStraight = 0.01;         // of a bend's peak curvature, beside it
 constexpr int kArcParts = 48;              // of an arc, where axes have limits of their own
@@ -59,17 +60,20 @@ ByArcLength by_arc_length(const nurbs::Derivatives& at, const Vec3& third) {
           (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
 }
 
-/// Bounds between two places, each derivative being at most so far from its value at the nearer one
-/// as the next one makes it.
-PathBounds bounds_between(const ByArcLength& a, const ByArcLength& b, double length) {
-  const auto larger = [](const Vec3& x, const Vec3& y) -> Vec3 {
-    return x.cwiseAbs().cwiseMax(y.cwiseAbs());
+/// Bounds between two places a, b with c between them: the third derivative is at most as far
+/// beyond the three as the middle one is off the mean of the others, each lower one at most as far
+/// from its value at the nearer place as the next one makes it.
+PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByArcLength& b,
+                          double length) {
+  const auto largest = [](const Vec3& x, const Vec3& y, const Vec3& z) -> Vec3 {
+    return x.cwiseAbs().cwiseMax(y.cwiseAbs()).cwiseMax(z.cwiseAbs());
   };
   PathBounds bounds;
-  bounds.twist = 1.1 * larger(a.third, b.third);
-  bounds.curvature = larger(a.second, b.second) + 0.5 * length * bounds.twist;
-  bounds.tangent =
-      (larger(a.first, b.first) + 0.5 * length * bounds.curvature).cwiseMin(Vec3::Ones());
+  const Vec3 bulge = (c.third - 0.5 * (a.third + b.third)).cwiseAbs();
+  bounds.twist = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
+  bounds.curvature = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist;
+  bounds.tangent = (largest(a.first, c.first, b.first) + 0.25 * length * bounds.curvature)
+                       .cwiseMin(Vec3::Ones());
   return bounds;
 }
 
@@ -153,11 +157,12 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
       const double u0 = curve.curvature[i].u;
       const double u1 = curve.curvature[i + 1].u;
       const int span = curve.curve.find_span(0.5 * (u0 + u1));
-      const auto a = curve.curve.derivatives(u0, span);
-      const auto b = curve.curve.derivatives(u1, span);
-      const Vec3 third = (b.second - a.second) / (u1 - u0);
-      keep_axis_limits(bounds_between(by_arc_length(a, third), by_arc_length(b, third),
-                                      interval.end - interval.begin),
+      const auto from = curve.curve.derivatives(u0, span);
+      const auto to = curve.curve.derivatives(u1, span);
+      const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
+      const Vec3 third = (to.second - from.second) / (u1 - u0);
+      keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
+                                      by_arc_length(to, third), interval.end - interval.begin),
                        limits_, zone);
     }
     if (has_axis_limits_ && interval.is_held && zones.size() > first) {
@@ -188,7 +193,8 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
         // K' of a circle is -kappa^2 T, of a helix less.
         return {p.tangent, p.curvature, -p.curvature.squaredNorm() * p.tangent};
       };
-      keep_axis_limits(bounds_between(at(begin), at(end), end - begin), limits_, zone);
+      keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
+                       limits_, zone);
     }
     append_zone(zone, first, highest, zones);
   }

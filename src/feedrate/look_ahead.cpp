@@ -13,9 +13,11 @@
 namespace twin::feedrate {
 namespace {
 
-constexpr double kPlaceRounding = 1e-9;       // [mm]
-constexpr double kBrakingDistances = 4.0;     // longest ones, of path between two plans
+constexpr double kPlaceRounding = 1e-9;    // [mm]
+constexpr double kBrakingDistances = 4.0;  // longest ones, of path between two plans
+constexpr double kRest = 0.25;  // of an axis's limits, beside what the feedrate takes of them
 constexpr std::size_t kMostSegments = 16384;  // of the window; then it is planned to rest
+constexpr std::size_t kFewestZones = 1024;    // between two plans for their number
 
 /// A zone within [begin, end], measured from begin.
 LimitZone part_of(LimitZone zone, double begin, double end) {
@@ -70,6 +72,20 @@ double LookAhead::asked_feedrate(const path::Segment& segment) const {
   return std::min(scale * segment.feedrate, std::max(limits_.feedrate, segment.feedrate));
 }
 
+/// A and J that are left on any part of the path where axes have limits of their own.
+RampLimits LookAhead::start_ramp() const {
+  RampLimits least = ramp_;
+  for (int i = 0; has_axis_limits_ && is_certified_ && i < 3; ++i) {
+    if (limits_.axis_acceleration[i] > 0.0) {
+      least.acceleration = std::min(least.acceleration, kRest * limits_.axis_acceleration[i]);
+    }
+    if (limits_.axis_jerk[i] > 0.0) {
+      least.jerk = std::min(least.jerk, kRest * limits_.axis_jerk[i]);
+    }
+  }
+  return least;
+}
+
 /// Appends the limits of a segment at the window's end. As far as the way from the start's feedrate
 /// down to the one asked for goes, the start's feedrate is asked for.
 void LookAhead::take_limits(const path::Segment& segment) {
@@ -77,7 +93,7 @@ void LookAhead::take_limits(const path::Segment& segment) {
   const std::size_t first = work_.zones.size();
   const double down =
       asked < start_of_plan_.v
-          ? start_of_plan_.s + ramp_distance(start_of_plan_.v, asked, ramp_) - length_
+          ? start_of_plan_.s + ramp_distance(start_of_plan_.v, asked, start_ramp()) - length_
           : 0.0;
   if (down > 0.0 && segment.length > 0.0) {
     const double border = length_ + std::min(down, segment.length);
@@ -157,13 +173,15 @@ bool LookAhead::is_due() const {
   if (!is_certified_) {
     return window_.size() >= look_ahead_;
   }
-  return length_ >= due_length_ || window_.size() >= due_segments_;
+  return length_ >= due_length_ || window_.size() >= due_segments_ ||
+         work_.zones.size() >= due_zones_;
 }
 
 void LookAhead::wait_for_more() {
   const double braking = longest_descent(fastest_, fastest_, ramp_);
   due_length_ = length_ + kBrakingDistances * braking + horizon_margin();
   due_segments_ = std::max(window_.size() + look_ahead_, kMostSegments / 4);
+  due_zones_ = work_.zones.size() + std::max(work_.zones.size(), kFewestZones);
 }
 
 double LookAhead::horizon_margin() const { return kHidingPeriods * limits_.feedrate * period_; }

@@ -59,6 +59,7 @@ class LookAhead {
 
  private:
   double asked_feedrate(const path::Segment& segment) const;
+  RampLimits start_ramp() const;
   void take_limits(const path::Segment& segment);
   void append_limits(const path::Segment& segment, double feedrate, std::vector<LimitZone>& zones);
   void continue_zone(std::size_t index);
@@ -93,6 +94,7 @@ class LookAhead {
   double fastest_ = 0.0;              // feedrate asked for so far [mm/s]
   double due_length_ = 0.0;           // of the window at the next plan [mm]
   std::size_t due_segments_ = 0;      // in the window at the next plan
+  std::size_t due_zones_ = 1;         // of the window at the next plan
   std::int64_t next_index_ = 0;
   std::int64_t fallbacks_ = 0;
 };
