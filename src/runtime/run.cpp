@@ -107,7 +107,7 @@ void Run::guarded_plan(gcode::Reader& reader) noexcept {
     stop_ = true;
   }
   if (plan_error_) {
-    segments_.close();  // of whatever plan: the motion is to stop
+    segments_.close(SegmentQueue::kEveryPlan);
   }
   link_.break_off();
 }

@@ -38,6 +38,7 @@ class SegmentQueue final : public interpolator::SegmentSource {
   void set_reach(std::int64_t plan, double reach) noexcept {
     reach_[plan & 1].store(reach, std::memory_order_release);
   }
+  static constexpr std::int64_t kEveryPlan = -2;  ///< for close()
   /// No more segments of a plan follow.
   void close(std::int64_t plan = 0) noexcept { closed_.store(plan, std::memory_order_release); }
 
@@ -53,7 +54,8 @@ class SegmentQueue final : public interpolator::SegmentSource {
   }
   /// Whether all of a plan has been handed over.
   bool is_closed(std::int64_t plan) const noexcept {
-    return closed_.load(std::memory_order_acquire) == plan;
+    const std::int64_t closed = closed_.load(std::memory_order_acquire);
+    return closed == plan || closed == kEveryPlan;
   }
   /// Whether the buffer is full, or holds all of the plan that is followed, so that motion may
   /// start.

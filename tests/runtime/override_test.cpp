@@ -133,6 +133,36 @@ TEST_P(Override, TheSameScheduleGivesTheSameSetPoints) {
   }
 }
 
+TEST(OverrideOfEachAxis, KeepsTheLimitsOfEachAxis) {
+  config::MachineFile machine = machine_of(Planner::kCertified);
+  machine.limits.axis_acceleration = {900.0, 700.0, 900.0};
+  machine.limits.axis_jerk = {40000.0, 30000.0, 40000.0};
+  std::string text = "G01 F3000\n";
+  for (int i = 1; i <= 240; ++i) {
+    text += fmt::format("X{:.6f} Y{:.6f}\n", 0.25 * i, 2.0 * std::sin(0.0625 * i));
+  }
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform;
+    Schedule schedule;
+    for (double t = 0.05; seed > 0 && t < 2.5; t += 0.02 + 0.3 * uniform(random)) {
+      schedule.push_back({t, uniform(random) < 0.2 ? 0.0 : 1.0 + 199.0 * uniform(random)});
+    }
+    schedule.push_back({4.0, 100.0});
+    const auto run = run_with_overrides(text, machine, schedule);
+    metrics::LimitAudit audit(machine.period, machine.limits);
+    for (const trace::Sample& sample : run.samples) {
+      audit.add(sample.command);
+    }
+    const auto peaks = audit.finish();
+    for (const std::size_t axis : {0U, 1U}) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      EXPECT_LE(peaks.axis[axis].acceleration, 1.005 * machine.limits.axis_acceleration[k]) << seed;
+      EXPECT_LE(peaks.axis[axis].jerk, 1.005 * machine.limits.axis_jerk[k]) << seed;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Planners, Override,
                          ::testing::Values(Planner::kPaper, Planner::kCertified),
                          [](const auto& which) {
