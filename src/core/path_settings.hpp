@@ -25,13 +25,19 @@ inline constexpr std::array<std::string_view, 3> kInterpolatorNames{"nurbs", "be
 /// How NC blocks become segments: which runs are fitted, how closely, and how far ahead the planner
 /// looks.
 struct PathSettings {
-  Planner planner = Planner::kPaper;
+  Planner planner = Planner::kCertified;
   CurveKind curves = CurveKind::kNurbs;
   double chord_error = 0.01;  ///< chord tolerance, and the curve's distance from the polygon [mm]
   int min_segments = 3;       ///< fewest blocks that are fitted into one curve
   int max_segments = 20;      ///< most blocks in one curve
   double short_block_length = 10.0;  ///< a longer block is never part of a run of short ones [mm]
   int look_ahead = 200;              ///< planned segments between planner and interpolator
+
+  /// Whether the certified planner plans: Bezier pieces and bare lines are the paper's rivals and
+  /// keep its planner.
+  bool is_certified() const noexcept {
+    return planner == Planner::kCertified && curves == CurveKind::kNurbs;
+  }
 };
 
 }  // namespace twin

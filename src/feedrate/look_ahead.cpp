@@ -34,7 +34,7 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const Pat
       rules_(limits, model, path, period),
       certified_limits_(limits, model, path, period),
       has_axis_limits_(has_axis_limits(limits)),
-      is_certified_(path.planner == Planner::kCertified),
+      is_certified_(path.is_certified()),
       look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
       sink_(std::move(sink)),

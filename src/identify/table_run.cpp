@@ -14,7 +14,9 @@ namespace twin::identify {
 Expected<TableRun> TableRun::plan(const std::filesystem::path& program,
                                   const config::MachineFile& machine,
                                   std::optional<double> feedrate) {
-  const auto points = plan_set_points(program, machine, feedrate);
+  config::MachineFile published = machine;
+  published.path.planner = Planner::kPaper;
+  const auto points = plan_set_points(program, published, feedrate);
   if (!points) {
     return tl::unexpected(points.error());
   }

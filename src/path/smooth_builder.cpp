@@ -86,9 +86,8 @@ void SmoothBuilder::take_line(const gcode::Block& block, std::int64_t number) {
   line_.end = line_.last = block.end;
   line_.length = (line_.end - line_.start).norm();
   line_.tolerance = block.tolerance;
-  line_.can_be_short = settings_.curves != CurveKind::kNone &&
-                       block.motion == gcode::Motion::kLinear &&
-                       line_.length <= settings_.short_block_length;
+  line_.can_be_short =
+      block.motion == gcode::Motion::kLinear && line_.length <= settings_.short_block_length;
   demand.deviation = (block.start - start).norm();
   line_.demand = demand;
   line_.left_out.clear();

@@ -24,6 +24,7 @@ class Plan {
   /// The place of a row's single run among the jobs; its repeats follow it.
   Expected<std::size_t> add(const PublishedRow& row, const std::vector<std::string>& settings) {
     std::vector<std::string> all = request_.settings;
+    all.emplace_back("planning.planner=paper");
     all.push_back("interpolator.kind=" + row.interpolator);
     all.insert(all.end(), settings.begin(), settings.end());
     const std::string key =

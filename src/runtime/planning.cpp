@@ -80,12 +80,12 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
   return figures;
 }
 
-void put_into(metrics::Summary& summary, const PlanFigures& figures, Planner planner) {
+void put_into(metrics::Summary& summary, const PlanFigures& figures, bool is_certified) {
   const metrics::Running& lengths = figures.short_length;
   summary.blocks = {figures.blocks, lengths.count(), lengths.min(), lengths.mean(), lengths.max()};
   summary.segments = {figures.curves + figures.lines + figures.arcs, figures.curves, figures.lines,
                       figures.arcs};
-  if (planner == Planner::kCertified) {
+  if (is_certified) {
     summary.certified = {figures.deviation, figures.spans};
   }
   summary.compression_factor =

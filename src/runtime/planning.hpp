@@ -36,7 +36,9 @@ void count(const path::Segment& segment, PlanFigures& figures);
 Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
                                    const std::function<bool(feedrate::PlannedSegment&&)>& sink);
 
-/// The figures of a plan by this planner where the summary has them.
-void put_into(metrics::Summary& summary, const PlanFigures& figures, Planner planner);
+/// The figures of a plan where the summary has them.
+///
+/// @param is_certified  the deviation is a certified one, PathSettings::is_certified()
+void put_into(metrics::Summary& summary, const PlanFigures& figures, bool is_certified);
 
 }  // namespace twin::runtime

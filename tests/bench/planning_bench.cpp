@@ -114,10 +114,6 @@ BENCHMARK_CAPTURE(read_to_planned, certified_0_02_mm, 0.02, Planner::kCertified,
 BENCHMARK_CAPTURE(read_to_planned, paper_lines_0_26_mm, 0.26, Planner::kPaper, CurveKind::kNone)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(read_to_planned, certified_lines_0_26_mm, 0.26, Planner::kCertified,
-                  CurveKind::kNone)
-    ->Arg(100000)
-    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(blocks_to_path, paper_0_26_mm, 0.26, Planner::kPaper)
     ->Arg(100000)
     ->Unit(benchmark::kMillisecond);
