@@ -22,7 +22,7 @@ std::int64_t count_spans(const nurbs::Curve& curve) {
 
 }  // namespace
 
-void count(const path::Segment& segment, PlanFigures& figures) {
+void count(const path::Segment& segment, double short_block_length, PlanFigures& figures) {
   figures.deviation = std::max(figures.deviation, segment.deviation);
   figures.path_length += segment.length;
   if (std::holds_alternative<path::Line>(segment.geometry)) {
@@ -37,7 +37,7 @@ void count(const path::Segment& segment, PlanFigures& figures) {
     ++figures.fitted_curves;
     figures.spans += count_spans(curve->curve);
     for (const path::BlockMark& mark : segment.marks) {
-      if (mark.block > figures.last_short) {
+      if (mark.block > figures.last_short && mark.length <= short_block_length) {
         figures.short_length.add(mark.length);
         figures.last_short = mark.block;
       }
@@ -56,11 +56,11 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
                                    }
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  const auto builder = path::make_builder(machine.path, machine.planning, machine.limits,
-                                          [&](path::Segment&& segment) {
-                                            count(segment, figures);
-                                            look_ahead.push(std::move(segment));
-                                          });
+  const auto builder = path::make_builder(
+      machine.path, machine.planning, machine.limits, [&](path::Segment&& segment) {
+        count(segment, machine.path.short_block_length, figures);
+        look_ahead.push(std::move(segment));
+      });
   while (goes_on) {
     auto block = reader.next();
     if (!block) {
@@ -89,7 +89,7 @@ void put_into(metrics::Summary& summary, const PlanFigures& figures, bool is_cer
     summary.certified = {figures.deviation, figures.spans};
   }
   summary.compression_factor =
-      figures.fitted_curves > 0
+      figures.fitted_curves > 0 && lengths.count() > 0
           ? static_cast<double>(lengths.count()) / static_cast<double>(figures.fitted_curves)
           : 1.0;
   summary.path_length = figures.path_length;

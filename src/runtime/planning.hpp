@@ -28,7 +28,9 @@ struct PlanFigures {
 };
 
 /// Counts a segment that the path builder has made.
-void count(const path::Segment& segment, PlanFigures& figures);
+///
+/// @param short_block_length  a longer block is no short one, though a corner's curve is part of it
+void count(const path::Segment& segment, double short_block_length, PlanFigures& figures);
 
 /// The whole planning chain, text to planned segments: Reader, path::Builder, LookAhead.
 ///

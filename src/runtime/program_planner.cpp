@@ -103,7 +103,7 @@ Expected<void> ProgramPlanner::read_on() {
 }
 
 void ProgramPlanner::take(path::Segment&& segment) {
-  count(segment, figures_);
+  count(segment, machine_.path.short_block_length, figures_);
   if (link_ != nullptr) {
     path_.add(segment);
   }
