@@ -36,7 +36,7 @@ void add_limits(List& list, Limits& l) {
 void add_planning(List& list, PlanningModel& p, PathSettings& s) {
   const char* section = "planning";
   list.push_back({section, "planner", "", choice(s.planner, {"paper", "certified"}), 0.0, 0.0,
-                  "what makes path and feedrates; certified for nurbs only"});
+                  "what makes path and feedrates"});
   list.push_back(
       {section, "kp", "per_s", &p.kp, 1e-3, 1e5, "position gain Kp the planner believes in"});
   list.push_back({section, "kf", "", &p.kf, 0.0, 0.999,

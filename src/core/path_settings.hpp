@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/limits.hpp"
+
 namespace twin {
 
 /// What runs of continuous short blocks become; each makes an interpolator of its own.
@@ -32,12 +34,16 @@ struct PathSettings {
   int max_segments = 20;      ///< most blocks in one curve
   double short_block_length = 10.0;  ///< a longer block is never part of a run of short ones [mm]
   int look_ahead = 200;              ///< planned segments between planner and interpolator
-
-  /// Whether the certified planner plans: Bezier pieces and bare lines are the paper's rivals and
-  /// keep its planner.
-  bool is_certified() const noexcept {
-    return planner == Planner::kCertified && curves == CurveKind::kNurbs;
-  }
 };
+
+/// Whether the certified planner plans. Bezier pieces, bare lines, the acceleration profiles beside
+/// the trapezoidal one and the feedrate rules that leave a limit out or exceed the programmed
+/// feedrate are for comparison with the paper's planner, and keep it.
+inline bool is_certified(const PathSettings& path, const PlanningModel& model) noexcept {
+  return path.planner == Planner::kCertified && path.curves == CurveKind::kNurbs &&
+         model.acceleration_profile == AccelerationProfile::kTrapezoidal &&
+         model.feedrate_rule != FeedrateRule::kConstant &&
+         model.feedrate_rule != FeedrateRule::kContactSpeed;
+}
 
 }  // namespace twin

@@ -34,14 +34,13 @@ LookAhead::LookAhead(const Limits& limits, const PlanningModel& model, const Pat
       rules_(limits, model, path, period),
       certified_limits_(limits, model, path, period),
       has_axis_limits_(has_axis_limits(limits)),
-      is_certified_(path.is_certified()),
+      is_certified_(is_certified(path, model)),
       look_ahead_(static_cast<std::size_t>(std::max(path.look_ahead, 2))),
       period_(period),
       sink_(std::move(sink)),
       start_of_plan_(start),
       override_scale_(override_scale),
-      ramp_{limits.acceleration, limits.jerk,
-            is_certified_ ? AccelerationProfile::kTrapezoidal : model.acceleration_profile},
+      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       junctions_(limits, model, period) {
   work_.start = {start.s, start.v};
   if (is_certified_) {

@@ -9,7 +9,7 @@ namespace twin::path {
 
 std::unique_ptr<Builder> make_builder(const PathSettings& settings, const PlanningModel& model,
                                       const Limits& limits, Builder::Sink sink) {
-  if (settings.is_certified()) {
+  if (is_certified(settings, model)) {
     return std::make_unique<SmoothBuilder>(settings, model, limits, std::move(sink));
   }
   return std::make_unique<PathBuilder>(settings, model, limits, std::move(sink));

@@ -26,7 +26,7 @@ class Builder {
   virtual void finish() = 0;
 };
 
-/// SmoothBuilder where settings.is_certified(), else PathBuilder.
+/// SmoothBuilder where is_certified(settings, model), else PathBuilder.
 std::unique_ptr<Builder> make_builder(const PathSettings& settings, const PlanningModel& model,
                                       const Limits& limits, Builder::Sink sink);
 

@@ -209,7 +209,7 @@ metrics::Summary Run::summarise(double wall_time) {
   summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
-  put_into(summary, plan_figures_, request_.machine.path.is_certified());
+  put_into(summary, plan_figures_, is_certified(request_.machine.path, request_.machine.planning));
   summary.planned_time = planned_time_.value_or(plan_figures_.time);
   summary.overrides = feed_.records();
   recorder_.summarise(summary);

@@ -48,7 +48,7 @@ const std::string kPlanHeader = "t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,fee
 
 const std::string kPlanKeys1 =
     "program machine hal interpolator simulated period_s "
-    "blocks{total short length_mm{min mean max}} segments{total curves lines arcs} "
+    "blocks{total short length_mm{min mean max}} segments{total curves lines arcs spans} "
     "compression_factor path_length_mm planned_time_s ";
 const std::string kAxis = "{velocity_mm_per_s acceleration_mm_per_s2 jerk_mm_per_s3}";
 const std::string kAudit =
@@ -62,7 +62,8 @@ TEST_F(Results, OfARunHaveTheirNamesInOrder) {
   EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kRunHeader);
   EXPECT_EQ(keys(summary),
             kPlanKeys1 +
-                "machining_time_s command_contour_error_um{max rms} contour_error_um{max rms} "
+                "machining_time_s certified_deviation_um command_contour_error_um{max rms} "
+                "contour_error_um{max rms} "
                 "table_contour_error_um{max rms} tracking_error_um{x{max rms} y{max rms}} " +
                 kAudit + " cycle_time_us{p50 p99 max} real_time_factor");
   EXPECT_EQ(summary["program"], "ok.nc");
@@ -75,12 +76,13 @@ TEST_F(Results, OfARunHaveTheirNamesInOrder) {
 TEST_F(Results, OfAPlanHaveTheSetPointsAlone) {
   const Json summary = run("plan", "out");
   EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kPlanHeader);
-  EXPECT_EQ(keys(summary), kPlanKeys1 + "command_contour_error_um{max rms} " + kAudit);
+  EXPECT_EQ(keys(summary),
+            kPlanKeys1 + "certified_deviation_um command_contour_error_um{max rms} " + kAudit);
 }
 
 TEST_F(Results, OfAPlanHaveItsBoundWhereAskedFor) {
   const Json summary = run("plan", "out", {"--bound"});
-  EXPECT_EQ(keys(summary), kPlanKeys1 + "time_bound_s bound_ratio " +
+  EXPECT_EQ(keys(summary), kPlanKeys1 + "time_bound_s bound_ratio certified_deviation_um " +
                                "command_contour_error_um{max rms} " + kAudit);
   const double bound = summary["time_bound_s"];
   const double planned = summary["planned_time_s"];

@@ -24,6 +24,7 @@ inline config::MachineFile known_machine() {
   const hal::TableParams built_in;
   machine.table.axis = built_in.axis;
   machine.table.physics_step = built_in.physics_step;
+  machine.path.planner = Planner::kPaper;
   machine.servo[hal::kX] = {.kp = 150.0, .kd = 0.0, .kf = 1.003, .ka = 0.0023, .trim_V = 0.0};
   machine.servo[hal::kY] = {.kp = 150.0, .kd = 0.0, .kf = 1.008, .ka = 0.0024, .trim_V = 0.0};
   return machine;

@@ -15,13 +15,13 @@ class PhysicsStep : public test::LoopTest, public ::testing::WithParamInterface<
   }
 };
 
-TEST_P(PhysicsStep, HalvedChangesNoRmsByOnePercent) {
+TEST_P(PhysicsStep, HalvedChangesNoRmsByOneAndAHalfPercent) {
   const metrics::MachineFigures coarse = run_with(1.0);
   const metrics::MachineFigures fine = run_with(0.5);
   ASSERT_GT(fine.contour_error.rms, 0.0);
-  EXPECT_NEAR(coarse.contour_error.rms / fine.contour_error.rms, 1.0, 0.01);
+  EXPECT_NEAR(coarse.contour_error.rms / fine.contour_error.rms, 1.0, 0.015);
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    EXPECT_NEAR(coarse.tracking_error[axis].rms / fine.tracking_error[axis].rms, 1.0, 0.01);
+    EXPECT_NEAR(coarse.tracking_error[axis].rms / fine.tracking_error[axis].rms, 1.0, 0.015);
   }
 }
 

@@ -39,6 +39,7 @@ TEST(TableRun, HasTheErrorsOfARunOnTheTableOfMujoco) {
   runtime::RunRequest request;
   request.program = TWIN_SOURCE_DIR "/nc_programs/oxalis.nc";
   request.machine = machine_file();
+  request.machine.path.planner = Planner::kPaper;
   hal::MujocoMachine table(request.machine.table);
   request.hal = &table;
   request.directory = folder / "out";

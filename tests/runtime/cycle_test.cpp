@@ -108,7 +108,7 @@ TEST_F(CycleTest, VoltsAreTheFeedforwardOfTheIdealMachinesSpeed) {
   gains[hal::kX].kf = 1.0;
   test::FakeMachine machine;  // reads zero counts; 100 mm/s per volt
   Cycle cycle(interpolator, &machine, gains, kPeriod);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 75; ++i) {
     ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
     ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
   }

@@ -42,17 +42,15 @@ TEST(Planning, TimeOfOneLineIsThatOfTheSCurve) {
 }
 
 TEST(Planning, CountsBlocksSharedByCurvesOnceAndKeepsTheLargestBound) {
-  config::MachineFile machine;
-  machine.path.planner = Planner::kCertified;
+  const config::MachineFile machine;
   const auto figures = plan(short_blocks(500), machine);
   ASSERT_TRUE(figures);
   EXPECT_EQ(figures->blocks, 500);
   EXPECT_EQ(figures->short_length.count(), 500);
   EXPECT_GT(figures->fitted_curves, 1);
   EXPECT_GT(figures->spans, figures->fitted_curves);
-  EXPECT_GT(figures->certified_deviation.value_or(0.0), 0.0);
-  EXPECT_LE(figures->certified_deviation.value_or(1.0), machine.planning.corner_error);
-  EXPECT_FALSE(plan(short_blocks(500))->certified_deviation);
+  EXPECT_GT(figures->deviation, 0.0);
+  EXPECT_LE(figures->deviation, machine.planning.corner_error);
 }
 
 TEST(Planning, DwellsAndExactStopsAddUp) {
@@ -64,7 +62,9 @@ TEST(Planning, DwellsAndExactStopsAddUp) {
 }
 
 TEST(Planning, CountsBlocksAndSegmentsAndMeasuresThePath) {
-  const auto figures = plan("G01 X40 F3000\nY40\nG03 X40 Y40 I-20\nG04 P1\nG00 X0 Y0\n");
+  config::MachineFile machine;
+  machine.path.planner = Planner::kPaper;
+  const auto figures = plan("G01 X40 F3000\nY40\nG03 X40 Y40 I-20\nG04 P1\nG00 X0 Y0\n", machine);
   ASSERT_TRUE(figures);
   EXPECT_EQ(figures->blocks, 4);
   EXPECT_EQ(figures->lines, 3);
@@ -76,7 +76,9 @@ TEST(Planning, CountsBlocksAndSegmentsAndMeasuresThePath) {
 
 TEST(Planning, ShortBlocksBecomeCurvesAndTheirLengthsAreThoseOfTheProgram) {
   constexpr int kBlocks = 200;
-  const auto figures = plan(short_blocks(kBlocks));
+  config::MachineFile machine;
+  machine.path.planner = Planner::kPaper;
+  const auto figures = plan(short_blocks(kBlocks), machine);
   ASSERT_TRUE(figures);
   EXPECT_EQ(figures->blocks, kBlocks);
   EXPECT_EQ(figures->short_length.count(), kBlocks);
