@@ -77,8 +77,8 @@ TEST_F(ManyBlocks, MemoryDoesNotDependOnTheProgramsLength) {
     GTEST_SKIP() << "a sanitizer's own memory counts too";
   }
   // By then the segments between planner and motion have all been as large as they get.
-  constexpr int kEnough = 60000;
-  EXPECT_LT(peak_memory(4 * kEnough), peak_memory(kEnough) + 5.0);
+  constexpr int kEnough = 800000;
+  EXPECT_LT(peak_memory(2 * kEnough), peak_memory(kEnough) + 5.0);
 }
 
 }  // namespace
