@@ -110,7 +110,6 @@ Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
   double t = 0.0;
   auto figures = runtime::plan_program(*reader, machine, [&](feedrate::PlannedSegment&& planned) {
     bound.add(planned);
-    result.deviation = std::max(result.deviation, planned.segment.deviation);
     if (has_profiles) {
       add_segment(planned, s, t, result.planned);
     }
@@ -119,6 +118,7 @@ Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
   if (!figures) {
     return tl::unexpected(std::move(figures.error()));
   }
+  result.deviation = figures->deviation;
   result.time_bound = bound.finish();
   return result;
 }

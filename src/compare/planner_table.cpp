@@ -9,7 +9,6 @@
 
 #include "compare/jobs.hpp"
 #include "compare/verdict.hpp"
-#include "core/atomic_file.hpp"
 #include "core/units.hpp"
 
 namespace twin::compare {
@@ -172,11 +171,8 @@ Expected<void> write_planner_table(const std::vector<PlannerRow>& rows,
       {"planners.json", json_text(rows)},
       {"planners.md", "# Planners compared\n\n" + to_markdown(grid_of_planners(rows))}};
   std::vector<std::string> names;
-  for (const auto& [name, text] : texts) {
-    if (auto written = write_whole_file(workshop.folder() / name, text); !written) {
-      return written;
-    }
-    names.emplace_back(name);
+  if (auto written = workshop.write(texts, names); !written) {
+    return written;
   }
   return workshop.deliver(names);
 }

@@ -5,7 +5,6 @@
 
 #include "compare/compare_figures.hpp"
 #include "compare/texts.hpp"
-#include "core/atomic_file.hpp"
 
 namespace twin::compare {
 
@@ -25,11 +24,8 @@ Expected<void> write_results(const Comparison& comparison, const report::Worksho
       {"fluctuation.csv", fluctuations_csv(comparison)},
       {"compare.json", json_text(comparison)},
       {"compare.md", markdown_text(comparison)}};
-  for (const auto& [name, text] : texts) {
-    if (auto written = write_whole_file(workshop.folder() / name, text); !written) {
-      return written;
-    }
-    names.emplace_back(name);
+  if (auto written = workshop.write(texts, names); !written) {
+    return written;
   }
   return workshop.deliver(names);
 }

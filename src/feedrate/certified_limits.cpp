@@ -7,12 +7,12 @@
 #include "feedrate/axis_limits.hpp"
 #include "feedrate/chord_limit.hpp"
 #include "feedrate/segment_limits.hpp"
+#include "feedrate/zone_row.hpp"
 
 namespace twin::feedrate {
 namespace {
 
 constexpr double kBetweenSamples = 1.003;  // curvature between two samples over that at them
-constexpr double kSameLimit = 1.01;        // ratio of limits that share a zone
 constexpr double kTwistMargin = 1.05;      // of the third derivative, beside its bulge
 constexpr double kValley = 0.5;            // of a bend's peak curvature, where it ends
 constexpr double kStraight = 0.01;         // of a bend's peak curvature, beside it
@@ -21,27 +21,6 @@ constexpr int kArcParts = 48;              // of an arc, where axes have limits 
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
   return model;
-}
-
-/// Appends a zone, or widens the last one where its limits are nearly the same.
-/// @param first    zones before it are not widened
-/// @param highest  limit of the zones that became the last one [mm/s]
-void append_zone(const LimitZone& zone, std::size_t first, double& highest,
-                 std::vector<LimitZone>& zones) {
-  if (zones.size() > first) {
-    LimitZone& last = zones.back();
-    const double low = std::min(last.limit, zone.limit);
-    if (std::max(highest, zone.limit) <= kSameLimit * low) {
-      highest = std::max(highest, zone.limit);
-      last.limit = low;
-      last.end = zone.end;
-      last.acceleration = std::min(last.acceleration, zone.acceleration);
-      last.jerk = std::min(last.jerk, zone.jerk);
-      return;
-    }
-  }
-  highest = zone.limit;
-  zones.push_back(zone);
 }
 
 /// Derivatives of a curve by arc length, axis by axis.
@@ -148,8 +127,7 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
   if (!curve.is_programmed) {
     find_brief_bends();
   }
-  const std::size_t first = zones.size();
-  double highest = 0.0;
+  ZoneRow row(zones);
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval& interval = intervals_[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end, limit_at(interval, feedrate, true)};
@@ -165,11 +143,11 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
                                       by_arc_length(to, third), interval.end - interval.begin),
                        limits_, zone);
     }
-    if (has_axis_limits_ && interval.is_held && zones.size() > first) {
-      zone.limit = std::min(zone.limit, zones.back().limit);
-      highest = zones.back().limit = zone.limit;
+    if (has_axis_limits_ && interval.is_held && !row.is_empty()) {
+      zone.limit = std::min(zone.limit, row.last().limit);
+      row.lower_last(zone.limit);
     }
-    append_zone(zone, first, highest, zones);
+    row.append(zone);
   }
 }
 
@@ -181,8 +159,7 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
                        false, false};
   const double limit = limit_at(whole, feedrate, false);
   const int parts = arc != nullptr && has_axis_limits_ ? kArcParts : 1;
-  const std::size_t first = zones.size();
-  double highest = 0.0;
+  ZoneRow row(zones);
   for (int i = 0; i < parts; ++i) {
     const double begin = segment.length * i / parts;
     const double end = i + 1 == parts ? segment.length : segment.length * (i + 1) / parts;
@@ -196,7 +173,7 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
       keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
                        limits_, zone);
     }
-    append_zone(zone, first, highest, zones);
+    row.append(zone);
   }
 }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "feedrate/zone_row.hpp"
+
 namespace twin::feedrate {
 namespace {
 
-constexpr double kSameLimit = 1.01;  // ratio of limits that share a zone
 constexpr std::size_t kArcSamples = 181;
 
 /// Zones between successive samples.
@@ -14,25 +15,12 @@ constexpr std::size_t kArcSamples = 181;
 template <class PlaceOf, class LimitOf>
 void append_sampled(std::size_t count, double s0, const PlaceOf& place, const LimitOf& limit_of,
                     std::vector<LimitZone>& zones) {
-  const std::size_t first = zones.size();
-  double highest = 0.0;  // of the limits in the zone under way
+  ZoneRow row(zones);
   double limit = limit_of(0);
   for (std::size_t i = 1; i < count; ++i) {
     const double next = limit_of(i);
-    const LimitZone zone{s0 + place(i - 1), s0 + place(i), std::min(limit, next)};
+    row.append({s0 + place(i - 1), s0 + place(i), std::min(limit, next)});
     limit = next;
-    if (zones.size() > first) {
-      LimitZone& last = zones.back();
-      const double low = std::min(last.limit, zone.limit);
-      if (std::max(highest, zone.limit) <= kSameLimit * low) {
-        highest = std::max(highest, zone.limit);
-        last.limit = low;
-        last.end = zone.end;
-        continue;
-      }
-    }
-    highest = zone.limit;
-    zones.push_back(zone);
   }
 }
 

@@ -52,6 +52,17 @@ Expected<void> Workshop::deliver_one(const std::string& name) const {
   return {};
 }
 
+Expected<void> Workshop::write(std::span<const std::pair<const char*, std::string>> texts,
+                               std::vector<std::string>& names) const {
+  for (const auto& [name, text] : texts) {
+    if (auto written = write_whole_file(folder_ / name, text); !written) {
+      return written;
+    }
+    names.emplace_back(name);
+  }
+  return {};
+}
+
 Expected<void> Workshop::deliver(std::span<const std::string> names) const {
   for (const std::string& name : names) {
     if (auto delivered = deliver_one(name); !delivered) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -26,6 +27,10 @@ class Workshop {
   ~Workshop();
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
+
+  /// Writes texts into the workshop, each under its name, and appends the names.
+  Expected<void> write(std::span<const std::pair<const char*, std::string>> texts,
+                       std::vector<std::string>& names) const;
 
   /// Moves files and folders made in the workshop to the results, in place of older ones.
   Expected<void> deliver(std::span<const std::string> names) const;
