@@ -6,6 +6,22 @@
 #include "smoothing/run_spline.hpp"
 
 namespace twin::smoothing {
+namespace {
+
+/// Begins a row of points at a run's begin, before its first inner point: reflected about it.
+void begin_reflected(const Vec3& at, const Vec3& first, SlidingVector<Vec3>& points) {
+  points.push_back(2.0 * at - first);
+  points.push_back(at);
+}
+
+/// Ends a row of points at a run's end: the last inner point, reflected about it, follows.
+void end_reflected(const Vec3& at, SlidingVector<Vec3>& points) {
+  const Vec3 before = points.back();
+  points.push_back(at);
+  points.push_back(2.0 * at - before);
+}
+
+}  // namespace
 
 /// t_j, also of the reflected knots beyond the run's ends.
 double RunSpline::knot(std::ptrdiff_t j) const noexcept {
@@ -25,16 +41,12 @@ void RunSpline::place_points() {
     const LocalCubic cubic(stretch(), from.block, from.s, knots_[k].s);
     const Vec3 point = cubic.blossom(knots_[k - 1].s);
     if (k == 2) {
-      raw_.push_back(2.0 * begin_at_ - point);
-      raw_.push_back(begin_at_);
+      begin_reflected(begin_at_, point, raw_);
     }
     raw_.push_back(point);
   }
   if (is_marched()) {
-    const Vec3 end = polygon_[end_vertex_].at;
-    const Vec3 before = raw_.back();
-    raw_.push_back(end);
-    raw_.push_back(2.0 * end - before);
+    end_reflected(polygon_[end_vertex_].at, raw_);
   }
   correct_points();
 }
@@ -45,16 +57,12 @@ void RunSpline::correct_points() {
     const std::size_t i = std::max<std::size_t>(points_.end_index(), 2);
     const Vec3 point = 2.0 * raw_[i] - refitted(i);
     if (i == 2) {
-      points_.push_back(2.0 * begin_at_ - point);
-      points_.push_back(begin_at_);
+      begin_reflected(begin_at_, point, points_);
     }
     points_.push_back(point);
   }
   if (is_marched()) {
-    const Vec3 end = polygon_[end_vertex_].at;
-    const Vec3 before = points_.back();
-    points_.push_back(end);
-    points_.push_back(2.0 * end - before);
+    end_reflected(polygon_[end_vertex_].at, points_);
   }
 }
 
