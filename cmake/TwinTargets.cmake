@@ -1,10 +1,15 @@
-# One library per folder, one test program per tested folder: the only ways this project makes targets.
+# One library per folder, one test program per room of the house: the only ways this project makes targets.
 include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+# One set of flags for the program and its tests: optimised, and with assertions.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
@@ -17,7 +22,8 @@ add_library(twin_options INTERFACE)
 target_include_directories(twin_options INTERFACE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/src")
 target_compile_options(twin_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Werror
-  -Wno-restrict)  # g++ 12 is wrong about "literal" + std::string(...)
+  -Wno-restrict  # g++ 12 is wrong about "literal" + std::string(...)
+  -Wno-subobject-linkage)  # g++ takes a unit of several sources for a header
 if(TWIN_SANITIZE)
   target_compile_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE})
@@ -25,35 +31,69 @@ if(TWIN_SANITIZE)
   target_compile_definitions(twin_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
-# twin_library(gcode SOURCES a.cpp b.cpp DEPS twin_core ...)
-# makes target twin_gcode from the sources of this folder.
-function(twin_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
-  if(ARG_SOURCES)
-    add_library(twin_${name} STATIC ${ARG_SOURCES})
-    target_link_libraries(twin_${name} PUBLIC twin_options ${ARG_DEPS})
-  else()
-    add_library(twin_${name} INTERFACE)
-    target_link_libraries(twin_${name} INTERFACE twin_options ${ARG_DEPS})
+# Compiles a target's sources as one unit, or in batches of $1 sources: nine tenths of a source's time are its headers.
+function(twin_unity target batch)
+  if(TWIN_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
   endif()
 endfunction()
 
-# twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [LABELS slow] [SERIAL])
-# makes program gcode_test and one ctest entry per TEST in it; SERIAL ones, on the wall clock, run with nothing beside.
+# Every header of a folder as a source of its own, for the target twin_headers.
+function(twin_check_headers target)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
+  target_sources(${target} INTERFACE FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${headers})
+endfunction()
+
+# twin_library(gcode SOURCES a.cpp b.cpp DEPS twin_core ... [PRIVATE_DEPS ...] [UNITY_BATCH n])
+# makes target twin_gcode from the sources of this folder.
+function(twin_library name)
+  cmake_parse_arguments(ARG "" "UNITY_BATCH" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  add_library(twin_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(twin_${name} PUBLIC twin_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+  if(NOT ARG_UNITY_BATCH)
+    set(ARG_UNITY_BATCH 0)
+  endif()
+  twin_unity(twin_${name} ${ARG_UNITY_BATCH})
+endfunction()
+
+# twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [SHARDS n] [LABELS slow] [SERIAL] [PROGRAM] [UNITY_BATCH n])
+# makes program gcode_test. ctest has an entry for each of its n shards, which gtest deals the tests to. SERIAL ones,
+# on the wall clock, run with nothing beside; those of PROGRAM start the program `twin`.
 function(twin_test name)
-  cmake_parse_arguments(ARG "SERIAL" "" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;PROGRAM" "SHARDS;UNITY_BATCH" "SOURCES;DEPS;LABELS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
-  target_link_libraries(${name}_test PRIVATE ${ARG_DEPS} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name}_test PRIVATE ${ARG_DEPS} twin_test_support GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE TWIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  set(label_property)
-  if(ARG_LABELS)
-    set(label_property LABELS "${ARG_LABELS}")
+  if(NOT TWIN_SANITIZE AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${name}_test PRIVATE -O1)
   endif()
-  if(ARG_SERIAL)
-    list(APPEND label_property RUN_SERIAL TRUE)
+  if(ARG_PROGRAM)
+    target_compile_definitions(${name}_test PRIVATE TWIN_EXECUTABLE="$<TARGET_FILE:twin_program>")
+    add_dependencies(${name}_test twin_program)
   endif()
-  gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT 300 ${label_property})
+  if(NOT ARG_UNITY_BATCH)
+    set(ARG_UNITY_BATCH 0)
+  endif()
+  twin_unity(${name}_test ${ARG_UNITY_BATCH})
+  if(NOT ARG_SHARDS)
+    set(ARG_SHARDS 1)
+  endif()
+  foreach(shard RANGE 1 ${ARG_SHARDS})
+    set(test ${name})
+    if(ARG_SHARDS GREATER 1)
+      set(test ${name}.${shard})
+    endif()
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${test} COMMAND ${name}_test --gtest_brief=1)
+    set_tests_properties(${test} PROPERTIES TIMEOUT 900
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
+    if(ARG_LABELS)
+      set_tests_properties(${test} PROPERTIES LABELS "${ARG_LABELS}" COST 100)
+    endif()
+    if(ARG_SERIAL)
+      set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
+    endif()
+  endforeach()
 endfunction()
 
 # twin_bench(gcode SOURCES a_bench.cpp DEPS twin_gcode) makes program gcode_bench (Google Benchmark).

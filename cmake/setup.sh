@@ -1,8 +1,64 @@
 # Functions of ./twin and tests/run: install what is missing, configure, build. Sourced, not run.
 #
-# Everything said here goes to stderr: stdout belongs to the program.
+# Everything said here goes to stderr: stdout belongs to the program. On a terminal a stage is one line that rewrites
+# itself; on a pipe it is one line, said when it begins.
+
+TWIN_BUILD=$TWIN_ROOT/build/release
 
 say() { printf '%s: %s\n' "$TWIN_SELF" "$*" >&2; }
+
+# Says what stage begins, and keeps the text for its progress.
+stage() {
+  TWIN_STAGE=$1
+  if [[ -t 2 ]]; then printf '\r\033[K%s: %s' "$TWIN_SELF" "$TWIN_STAGE" >&2; else say "$TWIN_STAGE"; fi
+}
+
+# Ends the line that rewrites itself.
+stage_done() { if [[ -t 2 ]]; then printf '\r\033[K' >&2; fi; }
+
+# Reads a tool's output: all of it goes to the log; on a terminal the last line's sense shows behind the stage.
+show_progress() {
+  local line what columns
+  columns=$(tput cols 2>/dev/null || echo 80)
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >>"$TWIN_BUILD/build.log"
+    [[ -t 2 ]] || continue
+    case $line in
+      '['*'] '*)  # [12/45] Building CXX object src/gcode/CMakeFiles/...: the folder
+        what=${line#*object }
+        what=${what#*executable }
+        what=${what#*library }
+        what="${line%%] *}] ${what%%/CMakeFiles*}"
+        ;;
+      Unpacking* | 'Setting up'*)
+        what=${line%% (*}
+        what=${what%%:*}
+        ;;
+      *) continue ;;
+    esac
+    what="$TWIN_SELF: $TWIN_STAGE $what"
+    printf '\r\033[K%s' "${what:0:columns-1}" >&2
+  done
+}
+
+# Runs a command with its output in the build's log. If it fails, shows what the compiler (or any tool) said.
+logged() {
+  : >"$TWIN_BUILD/build.log"
+  local status=0
+  { "$@" 2>&1 || status=$?; exit "$status"; } | show_progress || status=$?
+  stage_done
+  if ((status != 0)); then
+    if grep -qE '^FAILED: |error:' "$TWIN_BUILD/build.log"; then
+      # Not the compiler's command line, which is longer than its message.
+      awk '/^FAILED: /{shown = 1; print; getline; next} /^\[[0-9]+\/[0-9]+\]|^ninja: /{shown = 0} shown || /rror:/' \
+        "$TWIN_BUILD/build.log" | head -n 60 >&2
+    else
+      tail -n 40 "$TWIN_BUILD/build.log" >&2
+    fi
+    say "$TWIN_STAGE failed; everything that was said is in $TWIN_BUILD/build.log"
+    exit 1
+  fi
+}
 
 # Names of the packages that are missing, one a line. $1: "program", or "tests" for those of the program too.
 missing_packages() {
@@ -14,13 +70,18 @@ missing_packages() {
   done <"$TWIN_ROOT/cmake/packages.txt"
 }
 
+install_packages() {
+  "${as_root[@]}" apt-get update -q &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
+}
+
 # Installs missing packages, or with TWIN_NO_INSTALL=1 only names them.
 install_missing() {
   if ! command -v dpkg-query >/dev/null; then
     say "this is no Debian: cmake/packages.txt lists what must be there"
     return
   fi
-  local missing names as_root=()
+  local missing names name why as_root=()
   missing=$(missing_packages "$1")
   [[ -n $missing ]] || return 0
   say "these Debian packages are needed and missing:"
@@ -35,34 +96,19 @@ install_missing() {
       say "neither root nor sudo; as root run: apt-get install ${names[*]}"
       exit 1
     }
+    sudo -v  # asks for the password while nothing rewrites the line
     as_root=(sudo)
   fi
-  say "installing them: ${as_root[*]:+sudo }apt-get install ${names[*]}"
-  {
-    "${as_root[@]}" apt-get update -q &&
-      "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${names[@]}"
-  } >&2 || {
-    say "apt-get failed; nothing was built"
-    exit 1
-  }
+  stage "installing them with apt-get"
+  logged install_packages "${names[@]}"
 }
 
-# Runs a command with its output in the build's log; shows the log's end if it fails.
-logged() {
-  "$@" >>"$TWIN_BUILD/build.log" 2>&1 || {
-    tail -n 40 "$TWIN_BUILD/build.log" >&2
-    say "failed: $1; the whole log is $TWIN_BUILD/build.log"
-    exit 1
-  }
-}
-
-# build <folder under build/> <program|tests> <ninja target> [cmake options]
+# build <program|tests> <ninja target>
 #
-# Sets TWIN_BUILD. One at a time per folder. When nothing has changed it costs one `ninja -n`.
+# One tree and one set of flags for the program and its tests. One at a time. When nothing has changed it costs one
+# `ninja -n`.
 build() {
-  local folder=$1 use=$2 target=$3
-  shift 3
-  TWIN_BUILD=$TWIN_ROOT/build/$folder
+  local use=$1 target=$2 configured=
   mkdir -p "$TWIN_BUILD"
   exec 9>"$TWIN_BUILD/.lock"
   flock 9
@@ -74,17 +120,21 @@ build() {
     exec 9>"$TWIN_BUILD/.lock"
     flock 9
   fi
-  if [[ ! $TWIN_BUILD/.installed -nt $TWIN_ROOT/cmake/packages.txt ]]; then
+  if [[ ! $TWIN_BUILD/.installed_$use -nt $TWIN_ROOT/cmake/packages.txt ]]; then
     install_missing "$use"
-    touch "$TWIN_BUILD/.installed"
+    touch "$TWIN_BUILD/.installed_$use"
   fi
-  if [[ ! -f $TWIN_BUILD/build.ninja ]]; then
-    : >"$TWIN_BUILD/build.log"
-    logged cmake -S "$TWIN_ROOT" -B "$TWIN_BUILD" -G Ninja "$@"
+  [[ -f $TWIN_BUILD/build.ninja ]] && configured=yes
+  if [[ $use == tests ]] && ! grep -qxF 'TWIN_BUILD_TESTS:BOOL=ON' "$TWIN_BUILD/CMakeCache.txt" 2>/dev/null; then
+    configured=
+  fi
+  if [[ -z $configured ]]; then
+    stage "configuring"
+    logged cmake -S "$TWIN_ROOT" -B "$TWIN_BUILD" -G Ninja \
+      "-DTWIN_BUILD_TESTS=$([[ $use == tests ]] && echo ON || echo OFF)"
   fi
   if [[ $(ninja -C "$TWIN_BUILD" -n "$target" 2>&1 | tail -n 1) != 'ninja: no work to do.' ]]; then
-    say "building (log: build/$folder/build.log)"
-    : >"$TWIN_BUILD/build.log"
+    stage "building"
     logged ninja -C "$TWIN_BUILD" -j "$(nproc)" "$target"
   fi
   exec 9>&-

@@ -7,11 +7,11 @@
 namespace twin::hal {
 namespace {
 
-constexpr double kWholeTolerance = 1e-9;  // how far from whole a count of steps may be [steps]
+constexpr double kWholeSteps = 1e-9;  // how far from whole a count of steps may be [steps]
 
 std::size_t whole_part(double steps) {
   assert(steps >= 0.0);
-  return static_cast<std::size_t>(std::floor(steps + kWholeTolerance));
+  return static_cast<std::size_t>(std::floor(steps + kWholeSteps));
 }
 
 }  // namespace
@@ -19,7 +19,7 @@ std::size_t whole_part(double steps) {
 DelayLine::DelayLine(double steps)
     : values_(whole_part(steps), 0.0),
       fraction_(std::max(steps - static_cast<double>(values_.size()), 0.0)) {
-  if (fraction_ < kWholeTolerance) {
+  if (fraction_ < kWholeSteps) {
     fraction_ = 0.0;
   }
 }

@@ -8,7 +8,7 @@
 namespace twin::hal {
 namespace {
 
-constexpr double kPerMmFromPerM = 1000.0;  // stiffness and damping per mm in one per m
+constexpr double kPerMInPerMm = 1000.0;  // stiffness and damping per mm in one per m
 constexpr const char* kAxisNames[kServoAxes] = {"x", "y"};
 
 Expected<SlideJoint> find_joint(const mjModel& model, const std::string& name, mjtJoint type) {
@@ -60,8 +60,8 @@ void apply_axis(mjModel& model, const AxisJoints& joints, const AxisParams& para
   model.dof_armature[joints.motor.dof] = params.motor.rotor_inertia;
   model.wrap_prm[first] = 1.0;
   model.wrap_prm[first + 1] = -units::m_from_mm(params.mm_per_rad());
-  model.tendon_stiffness[joints.screw] = params.screw.stiffness * kPerMmFromPerM;
-  model.tendon_damping[joints.screw] = params.screw.damping * kPerMmFromPerM;
+  model.tendon_stiffness[joints.screw] = params.screw.stiffness * kPerMInPerMm;
+  model.tendon_damping[joints.screw] = params.screw.damping * kPerMInPerMm;
 }
 
 }  // namespace

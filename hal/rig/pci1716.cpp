@@ -13,13 +13,13 @@ constexpr std::uint32_t kAdControl = 0x06;  // read: status
 constexpr std::uint32_t kAdClear = 0x08;    // interrupt and FIFO
 constexpr std::uint32_t kDac0 = 0x0A;       // converter 1 is the next word
 constexpr std::uint32_t kDacRange = 0x0E;   // channel 0 in bits 2:0, channel 1 in 10:8
-constexpr std::uint32_t kDigital = 0x10;
+constexpr std::uint32_t kDigitalIo = 0x10;
 constexpr std::uint32_t kBoardId = 0x14;
 
 constexpr std::uint16_t kBothAt10V = 0x0101;
 constexpr std::uint16_t kSoftwareTrigger = 0x0001;
 constexpr std::uint16_t kFifoEmpty = 0x0100;
-constexpr std::uint16_t kAllOnes = 0xFFFF;
+constexpr std::uint16_t kAllOnes16 = 0xFFFF;
 constexpr int kPolls = 100;  // a conversion takes 4 us, an access about 1 us
 
 constexpr std::uint32_t dac_register(std::size_t channel) {
@@ -48,14 +48,14 @@ void make_safe(IoPort& pci1716, std::uint16_t digital) noexcept {
   pci1716.write16(kDacRange, kBothAt10V);
   pci1716.write16(dac_register(0), kZeroVolts);
   pci1716.write16(dac_register(1), kZeroVolts);
-  pci1716.write16(kDigital, digital);
+  pci1716.write16(kDigitalIo, digital);
 }
 
 Pci1716::Pci1716(IoPort& port, std::uint16_t safe_digital) noexcept
     : port_(port), safe_digital_(safe_digital), digital_out_(safe_digital) {}
 
 void Pci1716::open() noexcept {
-  port_.write16(kDigital, safe_digital_);
+  port_.write16(kDigitalIo, safe_digital_);
   make_safe();
 }
 
@@ -72,11 +72,11 @@ void Pci1716::set_volts(std::size_t channel, double volts) noexcept {
 void Pci1716::set_digital(std::uint16_t levels) noexcept {
   if (levels != digital_out()) {
     digital_out_.store(levels, std::memory_order_relaxed);
-    port_.write16(kDigital, levels);
+    port_.write16(kDigitalIo, levels);
   }
 }
 
-std::uint16_t Pci1716::digital_in() noexcept { return port_.read16(kDigital); }
+std::uint16_t Pci1716::digital_in() noexcept { return port_.read16(kDigitalIo); }
 
 std::optional<double> Pci1716::read_volts(int channel, InputRange range) noexcept {
   const auto start = static_cast<std::uint16_t>(channel & 0xF);
@@ -87,7 +87,7 @@ std::optional<double> Pci1716::read_volts(int channel, InputRange range) noexcep
   port_.write16(kAdData, 0);
   for (int i = 0; i < kPolls; ++i) {
     const std::uint16_t status = port_.read16(kAdControl);
-    if (status == kAllOnes) {
+    if (status == kAllOnes16) {
       return std::nullopt;
     }
     if ((status & kFifoEmpty) == 0) {
@@ -100,11 +100,11 @@ std::optional<double> Pci1716::read_volts(int channel, InputRange range) noexcep
 
 int Pci1716::board_id() noexcept {
   const std::uint16_t raw = port_.read16(kBoardId);
-  return raw == kAllOnes ? -1 : raw & 0xF;
+  return raw == kAllOnes16 ? -1 : raw & 0xF;
 }
 
 bool Pci1716::is_gone() noexcept {
-  return port_.read16(kBoardId) == kAllOnes && port_.read16(kAdControl) == kAllOnes;
+  return port_.read16(kBoardId) == kAllOnes16 && port_.read16(kAdControl) == kAllOnes16;
 }
 
 }  // namespace twin::hal::rig

@@ -13,7 +13,7 @@ constexpr std::uint32_t kLatch = 0x28;      // read: board ID
 constexpr std::uint32_t kDigitalIn = 0x30;  // in bits 7:4
 
 constexpr std::uint32_t kAllCounters = 0x0F;
-constexpr std::uint32_t kAllOnes = 0xFFFFFFFF;
+constexpr std::uint32_t kAllOnes32 = 0xFFFFFFFF;
 constexpr int kIndexBit = 8;  // of counter 0 in the interrupt status
 
 constexpr std::uint32_t counter_register(std::size_t counter) {
@@ -56,7 +56,7 @@ Pci1784::Raw Pci1784::latch() noexcept {
 bool Pci1784::read(std::array<std::int64_t, kCounters>& counts) noexcept {
   const Raw raw = latch();
   const bool all_ones =
-      std::all_of(raw.begin(), raw.end(), [](std::uint32_t value) { return value == kAllOnes; });
+      std::all_of(raw.begin(), raw.end(), [](std::uint32_t value) { return value == kAllOnes32; });
   if (all_ones && board_id() < 0) {
     return false;
   }
@@ -74,7 +74,7 @@ std::uint8_t Pci1784::take_index() noexcept {
   }
   const std::uint32_t status = port_.read32(kInterrupt);
   const auto seen = static_cast<std::uint8_t>(status >> kIndexBit & 0xF);
-  if (seen != 0 && status != kAllOnes) {
+  if (seen != 0 && status != kAllOnes32) {
     port_.read32(kClock);
     return seen;
   }
@@ -87,7 +87,7 @@ std::uint8_t Pci1784::digital_in() noexcept {
 
 int Pci1784::board_id() noexcept {
   const std::uint32_t raw = port_.read32(kLatch);
-  return raw == kAllOnes ? -1 : static_cast<int>(raw & 0xF);
+  return raw == kAllOnes32 ? -1 : static_cast<int>(raw & 0xF);
 }
 
 }  // namespace twin::hal::rig

@@ -8,7 +8,7 @@
 namespace twin::programs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;  ///< [rad]
+constexpr double kDegreeInRadians = std::numbers::pi / 180.0;  ///< [rad]
 
 void lines(NcText& nc, std::initializer_list<const char*> text) {
   for (const char* line : text) {
@@ -75,7 +75,7 @@ ProgramFile square_program() {
   for (int corner = 165; corner >= 0; corner -= 15) {
     p += leg * Point2(std::cos(heading), std::sin(heading));
     nc.line_to(p);
-    heading += sense * (180 - corner) * kDegree;
+    heading += sense * (180 - corner) * kDegreeInRadians;
     sense = -sense;
   }
   nc.line_to(Point2::Zero());

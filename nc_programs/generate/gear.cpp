@@ -6,15 +6,14 @@
 namespace twin::programs {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kTeeth = 12;
-constexpr double kModule = 4.0;                        // [mm]
-constexpr double kPitch = 0.5 * kModule * kTeeth;      // radius of the pitch circle [mm]
-constexpr double kTip = kPitch + kModule;              // [mm]
-constexpr double kRoot = kPitch - 1.25 * kModule;      // [mm]
-constexpr double kFillet = 1.0;                        // [mm]
-constexpr double kPressureAngle = 20.0 * kPi / 180.0;  // [rad]
-constexpr double kBlock = 0.2;                         // [mm]
+constexpr double kModule = 4.0;                    // [mm]
+constexpr double kPitch = 0.5 * kModule * kTeeth;  // radius of the pitch circle [mm]
+constexpr double kTip = kPitch + kModule;          // [mm]
+constexpr double kRoot = kPitch - 1.25 * kModule;  // [mm]
+constexpr double kFillet = 1.0;                    // [mm]
+constexpr double kPressureAngle = 20.0 * std::numbers::pi / 180.0;  // [rad]
+constexpr double kBlock = 0.2;                                      // [mm]
 
 double involute(double angle) { return std::tan(angle) - angle; }
 
@@ -23,7 +22,7 @@ Point2 polar(double r, double angle) { return r * Point2(std::cos(angle), std::s
 /// Angle between a tooth's middle and its flank at a radius from the base circle on:
 /// pi / (2 z) + inv(alpha) - inv(acos(r_b / r)).
 double half_tooth(double base, double r) {
-  return kPi / (2.0 * kTeeth) + involute(kPressureAngle) -
+  return std::numbers::pi / (2.0 * kTeeth) + involute(kPressureAngle) -
          involute(std::acos(std::min(base / r, 1.0)));
 }
 
@@ -56,8 +55,9 @@ void flank(NcText& nc, double middle, double side) {
   const double turn = side * std::asin(kFillet / (kRoot + kFillet));
   const Point2 centre = polar(kRoot + kFillet, low + turn);
   const double height = std::sqrt((kRoot + kFillet) * (kRoot + kFillet) - kFillet * kFillet);
-  const double from = low + turn + kPi;  // direction from the fillet's centre to the root circle
-  const double sweep = side * (0.5 * kPi - std::abs(turn));
+  const double from =
+      low + turn + std::numbers::pi;  // direction from the fillet's centre to the root circle
+  const double sweep = side * (0.5 * std::numbers::pi - std::abs(turn));
   const auto fillet = [&](double t) { return Point2(centre + polar(kFillet, from + t * sweep)); };
   const auto radial = [&](double t) { return polar(height + t * (base - height), low); };
   const auto curve = [&](double t) {
@@ -88,14 +88,14 @@ ProgramFile gear_program() {
   const double tip = half_tooth(base, kTip);
   nc.line_to(polar(kRoot, -foot));
   for (int i = 0; i < kTeeth; ++i) {
-    const double middle = 2.0 * kPi * i / kTeeth;
+    const double middle = 2.0 * std::numbers::pi * i / kTeeth;
     const auto arc = [](double r, double from, double to) {
       return [=](double t) { return polar(r, from + t * (to - from)); };
     };
     flank(nc, middle, -1.0);
     piece(nc, arc(kTip, middle - tip, middle + tip));
     flank(nc, middle, 1.0);
-    piece(nc, arc(kRoot, middle + foot, middle + 2.0 * kPi / kTeeth - foot));
+    piece(nc, arc(kRoot, middle + foot, middle + 2.0 * std::numbers::pi / kTeeth - foot));
   }
   nc.line_to(Point2::Zero());
   return {"gear.nc", nc.end_of_program()};

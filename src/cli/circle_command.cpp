@@ -2,10 +2,6 @@
 
 #include <system_error>
 
-#include "circular/circle_program.hpp"
-#include "circular/measured_turn.hpp"
-#include "circular/report.hpp"
-#include "circular/servo_prediction.hpp"
 #include "cli/circle_test.hpp"
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
@@ -13,8 +9,12 @@
 #include "cli/results.hpp"
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
-#include "plot/circular_figure.hpp"
+#include "pictures/plot/circular_figure.hpp"
 #include "runtime/run.hpp"
+#include "studies/circular/circle_program.hpp"
+#include "studies/circular/measured_turn.hpp"
+#include "studies/circular/report.hpp"
+#include "studies/circular/servo_prediction.hpp"
 
 namespace twin::cli {
 namespace {
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 /// One sense of the test.
 struct SenseRun {
-  circular::MeasuredTurn turn;
+  studies::circular::MeasuredTurn turn;
   std::string interpolator;
 };
 /// Counter-clockwise first.
@@ -43,9 +43,9 @@ Expected<void> prepare_folder(const fs::path& folder) {
 }
 
 /// Runs one sense with a machine of its own and reads what it measured.
-Expected<SenseRun> run_sense(const CircleTest& test, circular::Sense sense, const Options& options,
-                             const std::atomic<bool>& stop) {
-  const std::string name(circular::short_name(sense));
+Expected<SenseRun> run_sense(const CircleTest& test, studies::circular::Sense sense,
+                             const Options& options, const std::atomic<bool>& stop) {
+  const std::string name(studies::circular::short_name(sense));
   const auto hal = open_machine(options, test.machine, "circle");
   if (!hal) {
     return tl::unexpected(hal.error());
@@ -57,13 +57,14 @@ Expected<SenseRun> run_sense(const CircleTest& test, circular::Sense sense, cons
   request.is_wall_clock = (*hal)->info().keeps_own_time;
   request.directory = test.folder / name;
   request.stop = &stop;
-  if (auto written = write_whole_file(request.program,
-                                      circular::circle_program(test.radius, test.feedrate, sense));
+  if (auto written = write_whole_file(
+          request.program, studies::circular::circle_program(test.radius, test.feedrate, sense));
       !written) {
     return tl::unexpected(written.error());
   }
-  Progress progress(sense == circular::Sense::kClockwise ? "clockwise" : "counter-clockwise",
-                    options.quiet);
+  Progress progress(
+      sense == studies::circular::Sense::kClockwise ? "clockwise" : "counter-clockwise",
+      options.quiet);
   request.progress = progress.callback();
   const auto result = runtime::run_program(request);
   if (!result) {
@@ -76,26 +77,29 @@ Expected<SenseRun> run_sense(const CircleTest& test, circular::Sense sense, cons
     return tl::unexpected(*result->failure);
   }
   remove_stale_results(request.directory);
-  auto turn = circular::read_measured_turn(request.directory / "trace.csv");
+  auto turn = studies::circular::read_measured_turn(request.directory / "trace.csv");
   if (!turn) {
     return tl::unexpected(turn.error());
   }
   return SenseRun{std::move(*turn), result->summary.interpolator};
 }
 
-circular::Figures figures_of(const circular::BothPaths& paths, const CircleTest& test,
-                             const std::array<double, 2>& reached) {
-  circular::Figures figures;
-  figures.deviations = circular::evaluate(paths, test.radius);
+studies::circular::Figures figures_of(const studies::circular::BothPaths& paths,
+                                      const CircleTest& test,
+                                      const std::array<double, 2>& reached) {
+  studies::circular::Figures figures;
+  figures.deviations = studies::circular::evaluate(paths, test.radius);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    figures.spikes[i] = circular::find_reversal_spikes(
-        paths[i], circular::kSenses[i], circular::spike_reach(reached[i] / test.radius));
+    figures.spikes[i] = studies::circular::find_reversal_spikes(
+        paths[i], studies::circular::kSenses[i],
+        studies::circular::spike_reach(reached[i] / test.radius));
   }
   return figures;
 }
 
-circular::Report make_report(const CircleTest& test, const BothRuns& runs, const Options& options) {
-  circular::Report report;
+studies::circular::Report make_report(const CircleTest& test, const BothRuns& runs,
+                                      const Options& options) {
+  studies::circular::Report report;
   report.machine = test.machine.name;
   report.hal = options.hal;
   report.interpolator = runs[0].interpolator;
@@ -111,7 +115,7 @@ circular::Report make_report(const CircleTest& test, const BothRuns& runs, const
   }
   const double reached = 0.5 * (report.reached[0] + report.reached[1]);
   const auto predicted =
-      circular::predicted_radial_deviation(test.machine.servo, test.radius, reached);
+      studies::circular::predicted_radial_deviation(test.machine.servo, test.radius, reached);
   if (predicted) {
     report.predicted = *predicted;
   } else {
@@ -124,14 +128,14 @@ Expected<void> write_picture(const CircleTest& test, const BothRuns& runs, const
                              bool quiet) {
   Progress progress("plots", quiet);
   progress.show(0.0);
-  plot::CircularFigureInput input;
+  pictures::CircularFigureInput input;
   input.directory = test.folder;
   input.title = fmt::format("Circular test, radius {:g} mm, {:g} mm/min", test.radius,
                             units::mm_per_min_from_mm_per_s(test.feedrate));
   input.subtitle = fmt::format("{} ({}), position of the table", test.machine.name, hal);
   input.radius = test.radius;
   input.path = {runs[0].turn.table, runs[1].turn.table};
-  auto pictures = plot::write_circular_figure(input);
+  auto pictures = pictures::write_circular_figure(input);
   if (!pictures) {
     return tl::unexpected(pictures.error());
   }
@@ -148,19 +152,20 @@ Expected<void> circle_command(const Options& options, const std::atomic<bool>& s
   }
   BothRuns runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    auto run = run_sense(*test, circular::kSenses[i], options, stop);
+    auto run = run_sense(*test, studies::circular::kSenses[i], options, stop);
     if (!run) {
       return tl::unexpected(run.error());
     }
     runs[i] = std::move(*run);
   }
-  const circular::Report report = make_report(*test, runs, options);
-  if (auto written = write_whole_file(test->folder / "circle.json", circular::to_json(report));
+  const studies::circular::Report report = make_report(*test, runs, options);
+  if (auto written =
+          write_whole_file(test->folder / "circle.json", studies::circular::to_json(report));
       !written) {
     return written;
   }
   if (!options.quiet) {
-    fmt::print("{}", circular::to_table(report));
+    fmt::print("{}", studies::circular::to_table(report));
   }
   if (!options.no_plots) {
     if (auto drawn = write_picture(*test, runs, options.hal, options.quiet); !drawn) {

@@ -3,10 +3,10 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
-#include "compare/planner_table.hpp"
-#include "compare/texts.hpp"
-#include "compare/write_results.hpp"
 #include "config/find_file.hpp"
+#include "studies/compare/planner_table.hpp"
+#include "studies/compare/texts.hpp"
+#include "studies/compare/write_results.hpp"
 
 namespace twin::cli {
 namespace {
@@ -27,13 +27,13 @@ Expected<std::vector<std::filesystem::path>> find_programs(const Options& option
   return programs;
 }
 
-Expected<compare::Request> request_of(const Options& options,
-                                      const std::filesystem::path& program) {
+Expected<studies::compare::Request> request_of(const Options& options,
+                                               const std::filesystem::path& program) {
   auto machine = config::find_machine(options.machine);
   if (!machine) {
     return tl::unexpected(std::move(machine.error()));
   }
-  compare::Request request;
+  studies::compare::Request request;
   request.program = program;
   request.machine_file = *machine;
   request.settings = options.settings;
@@ -49,13 +49,13 @@ Expected<compare::Request> request_of(const Options& options,
 }
 
 /// One program: the contestants, with runs.
-Expected<void> compare_contestants(const Options& options, compare::Request request,
-                                   const report::Workshop& workshop) {
-  Expected<compare::Comparison> comparison;
+Expected<void> compare_contestants(const Options& options, studies::compare::Request request,
+                                   const pictures::Workshop& workshop) {
+  Expected<studies::compare::Comparison> comparison;
   {
     Progress progress("comparing", options.quiet);
     request.running.progress = progress.callback();
-    comparison = compare::compare(request);
+    comparison = studies::compare::compare(request);
   }
   if (!comparison) {
     return tl::unexpected(comparison.error());
@@ -77,14 +77,14 @@ Expected<void> compare_contestants(const Options& options, compare::Request requ
 }
 
 /// Several programs: a table of the planners, without runs.
-Expected<void> compare_planners(const Options& options, compare::Request request,
+Expected<void> compare_planners(const Options& options, studies::compare::Request request,
                                 const std::vector<std::filesystem::path>& programs,
-                                const report::Workshop& workshop) {
-  Expected<std::vector<compare::PlannerRow>> rows;
+                                const pictures::Workshop& workshop) {
+  Expected<std::vector<studies::compare::PlannerRow>> rows;
   {
     Progress progress("planning", options.quiet);
     request.running.progress = progress.callback();
-    rows = compare::planner_rows(request, programs);
+    rows = studies::compare::planner_rows(request, programs);
   }
   if (!rows) {
     return tl::unexpected(rows.error());
@@ -112,7 +112,7 @@ Expected<void> compare_command(const Options& options, const std::atomic<bool>& 
       is_one ? request->program.stem().string() + "_compare" : "compare";
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("renders") / name : options.out;
-  const auto workshop = report::Workshop::open(out);
+  const auto workshop = pictures::Workshop::open(out);
   if (!workshop) {
     return tl::unexpected(workshop.error());
   }

@@ -7,21 +7,21 @@
 #include "cli/results.hpp"
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
-#include "convert/comparison.hpp"
-#include "convert/converter.hpp"
-#include "convert/dialect.hpp"
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
+#include "studies/convert/comparison.hpp"
+#include "studies/convert/converter.hpp"
+#include "studies/convert/dialect.hpp"
 
 namespace twin::cli {
 namespace {
 
 /// Empty for the name of a dialect, else what is wrong with it.
 std::string check_dialect(const std::string& name) {
-  if (convert::make_dialect(name) != nullptr) {
+  if (studies::convert::make_dialect(name) != nullptr) {
     return {};
   }
-  const std::vector<std::string> names = convert::dialect_names();
+  const std::vector<std::string> names = studies::convert::dialect_names();
   return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
                      fmt::join(names, ", "));
 }
@@ -40,14 +40,15 @@ struct Job {
   config::MachineFile machine;
 };
 
-Expected<convert::Conversion> convert_to(const Job& job, const convert::Dialect& dialect) {
+Expected<studies::convert::Conversion> convert_to(const Job& job,
+                                                  const studies::convert::Dialect& dialect) {
   auto reader = gcode::Reader::open(job.program.string(), job.reading);
   if (!reader) {
     return tl::unexpected(reader.error());
   }
-  auto conversion =
-      convert::convert_program(*reader, job.reading.start, job.program.filename().string(), dialect,
-                               job.machine.path, job.machine.planning, job.machine.limits);
+  auto conversion = studies::convert::convert_program(
+      *reader, job.reading.start, job.program.filename().string(), dialect, job.machine.path,
+      job.machine.planning, job.machine.limits);
   if (!conversion && conversion.error().file.empty()) {
     conversion.error().file = job.program.string();
   }
@@ -55,7 +56,8 @@ Expected<convert::Conversion> convert_to(const Job& job, const convert::Dialect&
 }
 
 /// Reads the new program back and holds it against the old one.
-Expected<convert::Deviation> check(const Job& job, const convert::Conversion& conversion) {
+Expected<studies::convert::Deviation> check(const Job& job,
+                                            const studies::convert::Conversion& conversion) {
   auto before = gcode::Reader::open(job.program.string(), job.reading);
   if (!before) {
     return tl::unexpected(before.error());
@@ -63,7 +65,7 @@ Expected<convert::Deviation> check(const Job& job, const convert::Conversion& co
   gcode::ReaderOptions reading;
   reading.start = job.reading.start;
   auto after = gcode::Reader::from_text(conversion.text, "the converted program", reading);
-  auto deviation = convert::compare_programs(*before, after, conversion.groups);
+  auto deviation = studies::convert::compare_programs(*before, after, conversion.groups);
   if (deviation && deviation->largest > deviation->tolerance + kRounding) {
     return tl::unexpected(Error{
         ErrorCode::kProgram,
@@ -75,17 +77,17 @@ Expected<convert::Deviation> check(const Job& job, const convert::Conversion& co
   return deviation;
 }
 
-Expected<convert::Deviation> check_as_readable(const Job& job, const std::string& dialect,
-                                               const convert::Conversion& conversion) {
-  if (convert::is_readable(dialect)) {
+Expected<studies::convert::Deviation> check_as_readable(
+    const Job& job, const std::string& dialect, const studies::convert::Conversion& conversion) {
+  if (studies::convert::is_readable(dialect)) {
     return check(job, conversion);
   }
-  auto readable = convert_to(job, *convert::make_dialect(kReadable));
+  auto readable = convert_to(job, *studies::convert::make_dialect(kReadable));
   return readable ? check(job, *readable) : tl::unexpected<Error>(readable.error());
 }
 
 fs::path output_of(const Options& options, const fs::path& program,
-                   const convert::Dialect& dialect) {
+                   const studies::convert::Dialect& dialect) {
   if (!options.out.empty()) {
     return options.out;
   }
@@ -94,13 +96,13 @@ fs::path output_of(const Options& options, const fs::path& program,
   return fs::path("renders") / program.stem() / name;
 }
 
-void print(const Job& job, const convert::Dialect& dialect, const convert::Conversion& c,
-           const convert::Deviation& deviation) {
+void print(const Job& job, const studies::convert::Dialect& dialect,
+           const studies::convert::Conversion& c, const studies::convert::Deviation& deviation) {
   fmt::print("{} for {}\n\n", job.program.filename().string(), dialect.control());
   fmt::print("  {:<26}{:>12}{:>12}\n", "", "before", "after");
   fmt::print("  {:<26}{:>12}{:>12}\n", "lines of text", c.lines_before, c.lines);
   std::int64_t made = 0;
-  for (const convert::Group& group : c.groups) {
+  for (const studies::convert::Group& group : c.groups) {
     made += group.made;
   }
   fmt::print("  {:<26}{:>12}{:>12}\n", "blocks", c.blocks, made);
@@ -113,8 +115,8 @@ void print(const Job& job, const convert::Dialect& dialect, const convert::Conve
   fmt::print(
       "\n  largest deviation from the programmed path, read back{}: {:.3f} um of {:g} um, "
       "line {}\n",
-      convert::is_readable(dialect.name()) ? "" : " as G6.2", units::um_from_mm(deviation.largest),
-      units::um_from_mm(deviation.tolerance), deviation.line);
+      studies::convert::is_readable(dialect.name()) ? "" : " as G6.2",
+      units::um_from_mm(deviation.largest), units::um_from_mm(deviation.tolerance), deviation.line);
 }
 
 Expected<void> convert_command(const Options& options) {
@@ -126,7 +128,7 @@ Expected<void> convert_command(const Options& options) {
   if (!program) {
     return tl::unexpected(program.error());
   }
-  const auto dialect = convert::make_dialect(options.dialect);
+  const auto dialect = studies::convert::make_dialect(options.dialect);
   const fs::path file = output_of(options, *program, *dialect);
   if (auto prepared = prepare_output_file(file); !prepared) {
     return prepared;

@@ -11,9 +11,9 @@
 #include "cli/results.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
-#include "identify/identify.hpp"
-#include "identify/parameter.hpp"
-#include "identify/report.hpp"
+#include "studies/identify/identify.hpp"
+#include "studies/identify/parameter.hpp"
+#include "studies/identify/report.hpp"
 
 namespace twin::cli {
 namespace {
@@ -21,9 +21,10 @@ namespace {
 /// Full keys from "a,b" texts; each must be one that can be fitted.
 Expected<std::vector<std::string>> keys_of(const std::vector<std::string>& names,
                                            const config::MachineFile& machine) {
-  std::vector<identify::Parameter> known;
+  std::vector<studies::identify::Parameter> known;
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
-    for (const identify::Candidate& candidate : identify::axis_candidates(machine, axis)) {
+    for (const studies::identify::Candidate& candidate :
+         studies::identify::axis_candidates(machine, axis)) {
       known.push_back(candidate.parameter);
     }
     const std::string name = axis == hal::kX ? "x" : "y";
@@ -34,13 +35,14 @@ Expected<std::vector<std::string>> keys_of(const std::vector<std::string>& names
   }
   std::vector<std::string> keys;
   for (const std::string& name : names) {
-    const auto found = std::ranges::find_if(known, [&](const identify::Parameter& parameter) {
-      return parameter.key == name || parameter.key.starts_with(name + "_");
-    });
+    const auto found =
+        std::ranges::find_if(known, [&](const studies::identify::Parameter& parameter) {
+          return parameter.key == name || parameter.key.starts_with(name + "_");
+        });
     if (found == known.end()) {
       std::vector<std::string> candidates;
       candidates.reserve(known.size());
-      for (const identify::Parameter& parameter : known) {
+      for (const studies::identify::Parameter& parameter : known) {
         candidates.push_back(parameter.key);
       }
       return fail(ErrorCode::kUsage,
@@ -52,15 +54,15 @@ Expected<std::vector<std::string>> keys_of(const std::vector<std::string>& names
   return keys;
 }
 
-Expected<std::vector<identify::Recording>> read_all(const IdentifyOptions& options,
-                                                    const config::MachineFile& machine) {
-  const auto columns = identify::parse_columns(options.columns);
+Expected<std::vector<studies::identify::Recording>> read_all(const IdentifyOptions& options,
+                                                             const config::MachineFile& machine) {
+  const auto columns = studies::identify::parse_columns(options.columns);
   if (!columns) {
     return tl::unexpected(columns.error());
   }
-  std::vector<identify::Recording> recordings;
+  std::vector<studies::identify::Recording> recordings;
   for (const std::string& trace : options.traces) {
-    auto recording = identify::read_recording(trace, *columns, machine.limits);
+    auto recording = studies::identify::read_recording(trace, *columns, machine.limits);
     if (!recording) {
       return tl::unexpected(recording.error());
     }
@@ -70,12 +72,13 @@ Expected<std::vector<identify::Recording>> read_all(const IdentifyOptions& optio
 }
 
 /// Writes the machine file and identify.json beside it.
-Expected<void> write_results(const identify::Identification& result,
+Expected<void> write_results(const studies::identify::Identification& result,
                              const std::filesystem::path& out) {
-  if (auto written = write_whole_file(out, identify::to_machine_file(result)); !written) {
+  if (auto written = write_whole_file(out, studies::identify::to_machine_file(result)); !written) {
     return written;
   }
-  return write_whole_file(out.parent_path() / "identify.json", identify::to_json(result, out));
+  return write_whole_file(out.parent_path() / "identify.json",
+                          studies::identify::to_json(result, out));
 }
 
 /// Where the machine file goes.
@@ -86,7 +89,7 @@ std::filesystem::path output_of(const Options& options) {
 
 Expected<void> identify_traces(const Options& options, const IdentifyOptions& identify_options,
                                const config::MachineFile& machine, const std::atomic<bool>& stop) {
-  identify::FitOptions fit;
+  studies::identify::FitOptions fit;
   fit.evaluations = identify_options.evaluations.value_or(fit.evaluations);
   fit.seed = identify_options.seed;
   fit.stop = &stop;
@@ -101,11 +104,11 @@ Expected<void> identify_traces(const Options& options, const IdentifyOptions& id
   if (!recordings) {
     return tl::unexpected(recordings.error());
   }
-  Expected<identify::Identification> result;
+  Expected<studies::identify::Identification> result;
   {
     Progress progress("identifying", options.quiet);
     fit.progress = progress.callback();
-    result = identify::identify(*recordings, machine, fit);
+    result = studies::identify::identify(*recordings, machine, fit);
   }
   if (!result) {
     return tl::unexpected(result.error());
@@ -115,8 +118,8 @@ Expected<void> identify_traces(const Options& options, const IdentifyOptions& id
     return written;
   }
   if (!options.quiet) {
-    fmt::print("{}\nmachine file {}, details in {}\n", identify::to_table(*result), out.string(),
-               (out.parent_path() / "identify.json").string());
+    fmt::print("{}\nmachine file {}, details in {}\n", studies::identify::to_table(*result),
+               out.string(), (out.parent_path() / "identify.json").string());
   }
   for (const std::string& note : result->notes) {
     fmt::print(stderr, "twin: note: {}\n", note);

@@ -6,7 +6,7 @@
 
 #include "cli/progress.hpp"
 #include "core/atomic_file.hpp"
-#include "reproduce/table_fit.hpp"
+#include "studies/reproduce/table_fit.hpp"
 
 namespace twin::cli {
 namespace {
@@ -15,19 +15,19 @@ namespace {
 /// move of the phases alone does as much.
 constexpr double kLeastRise = 0.1;
 
-std::string_view verdict(const reproduce::FittedValue& value) {
+std::string_view verdict(const studies::reproduce::FittedValue& value) {
   if (value.is_at_bound) {
     return "at the bound of its range";
   }
   return value.rise < kLeastRise ? "the tables hardly tell" : "";
 }
 
-void print(const reproduce::TableFit& fit) {
+void print(const studies::reproduce::TableFit& fit) {
   fmt::print(
       "planning.kf = {:.3f}, planning.kp = {:.2f} 1/s: machining times {:.2f} % off (RMS)\n\n",
       fit.machine.planning.kf, fit.machine.planning.kp, 1e2 * fit.time_error);
   fmt::print("{:<40}{:>12}{:>12}{:>10}\n", "parameter", "before", "after", "rise");
-  for (const reproduce::FittedValue& value : fit.values) {
+  for (const studies::reproduce::FittedValue& value : fit.values) {
     const std::string_view remark = verdict(value);
     fmt::print("{:<40}{:>12.5g}{:>12.5g}{:>10.3f}{}{}\n", value.key, value.before, value.after,
                value.rise, remark.empty() ? "" : "  ", remark);
@@ -42,19 +42,19 @@ void print(const reproduce::TableFit& fit) {
 }  // namespace
 
 Expected<void> identify_tables(const IdentifyTables& request, const std::atomic<bool>& stop) {
-  const auto published = reproduce::published();
+  const auto published = studies::reproduce::published();
   if (!published) {
     return tl::unexpected(published.error());
   }
-  Expected<reproduce::TableFit> fit;
+  Expected<studies::reproduce::TableFit> fit;
   {
     Progress progress("fitting the published tables", request.quiet);
-    reproduce::TableFitOptions options;
+    studies::reproduce::TableFitOptions options;
     options.evaluations = request.evaluations;
     options.seed = request.seed;
     options.stop = &stop;
     options.progress = [show = progress.callback()](double share, double) { show(share); };
-    fit = reproduce::fit_tables(*published, request.start, options);
+    fit = studies::reproduce::fit_tables(*published, request.start, options);
   }
   if (!fit) {
     return tl::unexpected(fit.error());

@@ -10,7 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/usage.hpp"
-#include "control/terminal.hpp"
+#include "operator/terminal.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ std::atomic<bool> stop_requested{false};
 /// usual, with the terminal as it was.
 extern "C" void request_stop(int signal) {
   if (stop_requested.exchange(true)) {
-    twin::control::RawTerminal::restore();
+    twin::operator_station::RawTerminal::restore();
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }

@@ -7,8 +7,8 @@
 
 #include "gcode/programmed_curve.hpp"
 #include "gcode/reader.hpp"
-#include "metrics/block_distance.hpp"
-#include "trace/pen.hpp"
+#include "results/metrics/block_distance.hpp"
+#include "results/trace/pen.hpp"
 
 namespace twin::cli {
 namespace {
@@ -61,7 +61,7 @@ class ThinnedOutline {
 /// Everything of a block but its start.
 void add_block(const gcode::Block& block, ThinnedOutline& outline) {
   if (block.motion == gcode::Motion::kNurbs) {
-    for (const nurbs::CurvatureSample& sample : block.nurbs->samples) {
+    for (const geometry::CurvatureSample& sample : block.nurbs->samples) {
       outline.add(block.nurbs->curve.position(sample.u).head<2>());
     }
     return;
@@ -70,7 +70,7 @@ void add_block(const gcode::Block& block, ThinnedOutline& outline) {
                          ? static_cast<int>(std::ceil(block.arc.sweep / kChordAngle))
                          : 1;
   for (int i = 1; i <= pieces; ++i) {
-    outline.add(metrics::point_at(block, static_cast<double>(i) / pieces).head<2>());
+    outline.add(results::point_at(block, static_cast<double>(i) / pieces).head<2>());
   }
 }
 
@@ -87,7 +87,7 @@ std::vector<Vec2> read_outline(const std::filesystem::path& program, bool skips_
       break;
     }
     const gcode::Block& block = **next;
-    if (skips_lifted && std::min(block.start.z(), block.end.z()) > trace::kPenUp) {
+    if (skips_lifted && std::min(block.start.z(), block.end.z()) > results::kPenUp) {
       is_apart = true;
       continue;
     }

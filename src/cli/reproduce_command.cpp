@@ -4,32 +4,33 @@
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
 #include "config/find_file.hpp"
-#include "reproduce/figure_kinds.hpp"
-#include "reproduce/files.hpp"
-#include "reproduce/table_grids.hpp"
-#include "reproduce/write_results.hpp"
+#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/files.hpp"
+#include "studies/reproduce/table_grids.hpp"
+#include "studies/reproduce/write_results.hpp"
 
 namespace twin::cli {
 namespace {
 
-void print(const reproduce::Reproduction& reproduction) {
+void print(const studies::reproduce::Reproduction& reproduction) {
   fmt::print("{}\nA ratio is ours / published; ! marks one that is more than 30 % off.\n\n",
              reproduction.source);
-  for (int table = reproduce::kFirstTable; table <= reproduce::kLastTable; ++table) {
+  for (int table = studies::reproduce::kFirstTable; table <= studies::reproduce::kLastTable;
+       ++table) {
     fmt::print("{}\n", to_text(grid_of_table(reproduction, table)));
   }
   fmt::print("{}\n{}\n\n", to_text(grid_of_counts(reproduction)), unreached(reproduction));
 }
 
 Expected<void> reproduce_command(const Options& options, const std::atomic<bool>& stop) {
-  reproduce::Request request;
-  auto published = reproduce::published();
+  studies::reproduce::Request request;
+  auto published = studies::reproduce::published();
   auto machine = config::find_machine(options.machine);
   if (!published || !machine) {
     return tl::unexpected(!published ? published.error() : machine.error());
   }
   const std::filesystem::path out = options.out.empty() ? "renders/reproduce" : options.out;
-  auto workshop = report::Workshop::open(out);
+  auto workshop = pictures::Workshop::open(out);
   if (!workshop) {
     return tl::unexpected(workshop.error());
   }
@@ -42,11 +43,11 @@ Expected<void> reproduce_command(const Options& options, const std::atomic<bool>
     return make_machine("mujoco", file);
   };
   request.running.stop = &stop;
-  Expected<reproduce::Reproduction> reproduction;
+  Expected<studies::reproduce::Reproduction> reproduction;
   {
     Progress progress("machining", options.quiet);
     request.running.progress = progress.callback();
-    reproduction = reproduce::reproduce(request);
+    reproduction = studies::reproduce::reproduce(request);
   }
   if (!reproduction) {
     return tl::unexpected(reproduction.error());

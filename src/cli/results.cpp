@@ -9,9 +9,9 @@
 #include "cli/programmed_outline.hpp"
 #include "cli/progress.hpp"
 #include "core/atomic_file.hpp"
-#include "metrics/summary.hpp"
-#include "plot/figures.hpp"
-#include "render/video.hpp"
+#include "pictures/plot/figures.hpp"
+#include "pictures/video/video.hpp"
+#include "results/metrics/summary.hpp"
 
 namespace twin::cli {
 
@@ -45,7 +45,7 @@ Expected<void> prepare_output_file(const std::filesystem::path& file) {
 Expected<void> write_summary(const std::filesystem::path& folder,
                              const runtime::RunResult& result) {
   return write_whole_file(folder / (result.failure ? "summary.partial.json" : "summary.json"),
-                          metrics::to_json(result.summary));
+                          results::to_json(result.summary));
 }
 
 Expected<void> write_plots(const std::filesystem::path& folder,
@@ -53,8 +53,8 @@ Expected<void> write_plots(const std::filesystem::path& folder,
                            bool plan_only, bool quiet) {
   Progress progress("plots", quiet);
   progress.show(0.0);
-  const plot::FigureInput input{folder, title, programmed_outline(program), plan_only};
-  auto figures = plot::write_figures(input);
+  const pictures::FigureInput input{folder, title, programmed_outline(program), plan_only};
+  auto figures = pictures::write_figures(input);
   if (!figures) {
     return tl::unexpected(figures.error());
   }
@@ -64,14 +64,14 @@ Expected<void> write_plots(const std::filesystem::path& folder,
 Expected<void> write_video(const std::filesystem::path& folder, const std::filesystem::path& model,
                            const std::string& title, const Options& options) {
   Progress progress("video", options.quiet);
-  render::VideoInput input;
+  pictures::video::VideoInput input;
   input.trace_csv = folder / "trace.csv";
   input.scene_xml = model.parent_path() / "scene.xml";
   input.output = folder / "video.mp4";
   input.title = title;
   input.camera = options.camera;
   input.progress = progress.callback();
-  auto report = render::write_video(input);
+  auto report = pictures::video::write_video(input);
   if (!report) {
     return tl::unexpected(report.error());
   }

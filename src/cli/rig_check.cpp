@@ -5,16 +5,16 @@
 
 #include "cli/commands.hpp"
 #include "cli/rig_machines.hpp"
-#include "commissioning/wiring_check.hpp"
 #include "runtime/pacer.hpp"
+#include "studies/commissioning/wiring_check.hpp"
 
 namespace twin::cli {
 namespace {
 
-using commissioning::AxisWiringReport;
+using studies::commissioning::AxisWiringReport;
 
 /// Sleeps to the next period on the wall clock; nothing in simulated time.
-commissioning::WaitForPeriod make_wait(const hal::MachineInfo& info, double period) {
+studies::commissioning::WaitForPeriod make_wait(const hal::MachineInfo& info, double period) {
   if (!info.keeps_own_time) {
     return [] {};
   }
@@ -26,7 +26,7 @@ commissioning::WaitForPeriod make_wait(const hal::MachineInfo& info, double peri
 void print_axis(char name, const AxisWiringReport& report) {
   fmt::print("  {}  {:>10.3f} {:>10.2f} {:>12.3f} {:>12.3f}   {}\n", name, report.drift,
              report.offset() * 1e3, report.expected_scale, report.measured_scale,
-             commissioning::advice(report, std::string(1, name)));
+             studies::commissioning::advice(report, std::string(1, name)));
 }
 
 Expected<void> check(const Options& options, const std::atomic<bool>& stop) {
@@ -39,8 +39,8 @@ Expected<void> check(const Options& options, const std::atomic<bool>& stop) {
     return tl::unexpected(opened.error());
   }
   hal::Machine& rig = **opened;
-  const auto report = commissioning::check_wiring(rig, {}, machine->period,
-                                                  make_wait(rig.info(), machine->period), stop);
+  const auto report = studies::commissioning::check_wiring(
+      rig, {}, machine->period, make_wait(rig.info(), machine->period), stop);
   if (!report) {
     return tl::unexpected(report.error());
   }
@@ -50,7 +50,7 @@ Expected<void> check(const Options& options, const std::atomic<bool>& stop) {
   std::string wrong;
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     print_axis("xy"[axis], (*report)[axis]);
-    if ((*report)[axis].finding != commissioning::Finding::kSound) {
+    if ((*report)[axis].finding != studies::commissioning::Finding::kSound) {
       wrong += wrong.empty() ? "" : " and ";
       wrong += "xy"[axis];
     }

@@ -6,15 +6,15 @@
 #include "cli/commands.hpp"
 #include "cli/rig_machines.hpp"
 #include "cli/rig_motion.hpp"
-#include "commissioning/homing.hpp"
 #include "hal/kept_machine.hpp"
+#include "studies/commissioning/homing.hpp"
 
 namespace twin::cli {
 namespace {
 
-using commissioning::HomingMove;
-using commissioning::HomingStop;
-using commissioning::Until;
+using studies::commissioning::HomingMove;
+using studies::commissioning::HomingStop;
+using studies::commissioning::Until;
 
 /// What the motion looks out for. A switch that opens ends a move by its monitor.
 runtime::Until watch_for(const HomingMove& move) {
@@ -34,8 +34,8 @@ runtime::Until watch_for(const HomingMove& move) {
 
 /// True if a monitor ended the move because the switch that is sought has opened.
 bool met_switch(const runtime::RunResult& result, const HomingMove& move) {
-  const safety::Kind wanted =
-      move.is_positive ? safety::Kind::kPositiveLimit : safety::Kind::kNegativeLimit;
+  const motion::Kind wanted =
+      move.is_positive ? motion::Kind::kPositiveLimit : motion::Kind::kNegativeLimit;
   return move.until == Until::kLimitReached && result.trip && result.trip->axis == move.axis &&
          result.trip->kind == wanted;
 }
@@ -115,9 +115,9 @@ Expected<void> home(const Options& options, const std::atomic<bool>& stop) {
   const hal::AxisParams& table = machine->table.axis[axis];
   hal::KeptMachine kept(**rig);
   Homing homing(options, *machine, kept, stop);
-  const auto homed =
-      commissioning::home_axis(axis, machine->home[axis], 2.0 * table.travel, table.screw.lead,
-                               [&homing](const HomingMove& move) { return homing.make(move); });
+  const auto homed = studies::commissioning::home_axis(
+      axis, machine->home[axis], 2.0 * table.travel, table.screw.lead,
+      [&homing](const HomingMove& move) { return homing.make(move); });
   if (homed && !options.quiet) {
     fmt::print("axis {} stands at its zero{}: the next run begins there\n", options.axis,
                (*rig)->info().simulated ? " (simulated)" : "");

@@ -5,8 +5,8 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "config/find_file.hpp"
-#include "control/operator_station.hpp"
-#include "metrics/summary.hpp"
+#include "operator/operator_station.hpp"
+#include "results/metrics/summary.hpp"
 #include "runtime/program_bound.hpp"
 #include "runtime/run.hpp"
 
@@ -17,9 +17,9 @@ namespace {
 Expected<runtime::RunResult> run_with_operator(const Options& options,
                                                runtime::RunRequest& request) {
   runtime::OperatorPanel panel;
-  std::unique_ptr<control::OperatorStation> station;
+  std::unique_ptr<operator_station::OperatorStation> station;
   if (request.is_wall_clock) {
-    auto opened = control::OperatorStation::open(
+    auto opened = operator_station::OperatorStation::open(
         {.socket = options.control, .shows_status = !options.quiet}, panel);
     if (!opened) {
       return tl::unexpected(opened.error());
@@ -90,7 +90,7 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
     return written;
   }
   if (!options.quiet) {
-    fmt::print("{}", metrics::to_table(result->summary, machine->limits));
+    fmt::print("{}", results::to_table(result->summary, machine->limits));
   }
   if (result->failure) {
     return tl::unexpected(*result->failure);

@@ -68,7 +68,8 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "planned segments between planner and interpolator"});
 }
 
-void add_interpolator(List& list, interpolator::Settings& i, CurveKind& kind, double& period) {
+void add_interpolator(List& list, motion::InterpolatorSettings& i, CurveKind& kind,
+                      double& period) {
   const char* section = "interpolator";
   list.push_back({section, "kind", "",
                   choice(kind, {kInterpolatorNames.begin(), kInterpolatorNames.end()}), 0.0, 0.0,
@@ -81,7 +82,7 @@ void add_interpolator(List& list, interpolator::Settings& i, CurveKind& kind, do
                   "at the end of a curve: carry the remainder over, or land on the end"});
 }
 
-void add_servo(List& list, const std::string& section, servo::Gains& g) {
+void add_servo(List& list, const std::string& section, motion::Gains& g) {
   list.push_back({section, "kp", "per_s", &g.kp, 0.0, 1e5, "position gain"});
   list.push_back({section, "kd", "", &g.kd, 0.0, 1e3, "derivative gain"});
   list.push_back({section, "kf", "", &g.kf, 0.0, 10.0, "velocity feedforward"});

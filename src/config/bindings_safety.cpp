@@ -4,7 +4,7 @@
 namespace twin::config {
 namespace {
 
-void add_safety(std::vector<Binding>& list, safety::Settings& s) {
+void add_safety(std::vector<Binding>& list, motion::SafetySettings& s) {
   const char* section = "safety";
   list.push_back({section, "tracking_error", "mm", &s.tracking_error, 1e-3, 1e3,
                   "largest tracking error at rest"});

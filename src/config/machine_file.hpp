@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "commissioning/home_settings.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
@@ -15,9 +14,10 @@
 #include "hal/mujoco/table_params.hpp"
 #include "hal/rig/rig_settings.hpp"
 #include "hal/signals.hpp"
-#include "interpolator/settings.hpp"
-#include "safety/settings.hpp"
-#include "servo/gains.hpp"
+#include "motion/interpolator/interpolator_settings.hpp"
+#include "motion/safety/safety_settings.hpp"
+#include "motion/servo/gains.hpp"
+#include "studies/commissioning/home_settings.hpp"
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
 namespace twin::config {
@@ -30,13 +30,13 @@ struct MachineFile {
   PlanningModel planning;
   PathSettings path;
   double period = 0.001;  ///< interpolation period T [s]
-  interpolator::Settings interpolation;
-  std::array<servo::Gains, hal::kServoAxes> servo;
-  safety::Settings safety;
+  motion::InterpolatorSettings interpolation;
+  std::array<motion::Gains, hal::kServoAxes> servo;
+  motion::SafetySettings safety;
   RealtimeSettings realtime;
   hal::TableParams table;     ///< table.model is absolute once read
   hal::rig::RigSettings rig;  ///< cards and wires of the real machine
-  std::array<commissioning::HomeSettings, hal::kServoAxes> home;
+  std::array<studies::commissioning::HomeSettings, hal::kServoAxes> home;
 };
 
 /// Reads a machine file and then applies `section.key=value` texts to it, in order.

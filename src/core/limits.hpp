@@ -40,7 +40,7 @@ enum class AccelerationProfile : std::uint8_t {
 
 /// The first-order servo model that the planner believes in (Eqs. 1, 4, 16 of the paper).
 ///
-/// These are the planning gains; the loop that runs has servo gains of its own (servo::Gains).
+/// These are the planning gains; the loop that runs has servo gains of its own (motion::Gains).
 /// With it go the rules by which the feedrate is planned.
 struct PlanningModel {
   double kp = 282.555;            ///< position gain Kp [1/s]

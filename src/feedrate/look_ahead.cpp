@@ -4,16 +4,16 @@
 #include <cmath>
 #include <utility>
 
-#include "feedrate/axis_limits.hpp"
-#include "feedrate/corner_limit.hpp"
-#include "feedrate/glide_planner.hpp"
-#include "feedrate/hump_planner.hpp"
-#include "feedrate/segment_limits.hpp"
+#include "feedrate/certified/glide_planner.hpp"
+#include "feedrate/limits/axis_limits.hpp"
+#include "feedrate/limits/corner_limit.hpp"
+#include "feedrate/limits/segment_limits.hpp"
+#include "feedrate/paper/hump_planner.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
 
-constexpr double kPlaceRounding = 1e-9;    // [mm]
 constexpr double kBrakingDistances = 4.0;  // longest ones, of path between two plans
 constexpr double kRest = 0.25;  // of an axis's limits, beside what the feedrate takes of them
 constexpr std::size_t kMostSegments = 16384;  // of the window; then it is planned to rest

@@ -8,9 +8,9 @@
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
-#include "feedrate/certified_limits.hpp"
-#include "feedrate/feedrate_rule.hpp"
-#include "feedrate/junction_limits.hpp"
+#include "feedrate/certified/certified_limits.hpp"
+#include "feedrate/limits/feedrate_rule.hpp"
+#include "feedrate/limits/junction_limits.hpp"
 #include "feedrate/planned_segment.hpp"
 #include "feedrate/window_planner.hpp"
 

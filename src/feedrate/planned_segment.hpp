@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "feedrate/limit_zone.hpp"
-#include "feedrate/phase.hpp"
-#include "feedrate/ramp_limits.hpp"
+#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/profile/phase.hpp"
+#include "feedrate/profile/ramp_limits.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "feedrate/ramp.hpp"
+#include "feedrate/profile/ramp.hpp"
 
 namespace twin::feedrate {
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "feedrate/hump.hpp"
-#include "feedrate/limit_zone.hpp"
-#include "feedrate/phase.hpp"
-#include "feedrate/ramp_limits.hpp"
+#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/paper/hump.hpp"
+#include "feedrate/profile/phase.hpp"
+#include "feedrate/profile/ramp_limits.hpp"
 
 namespace twin::feedrate {
 

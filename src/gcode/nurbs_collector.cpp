@@ -13,7 +13,7 @@
 namespace twin::gcode {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ";
+constexpr std::string_view kAxisLetters = "XYZ";
 constexpr double kApart = 1e-3;  // of the first control point and the position before [mm]
 
 }  // namespace
@@ -57,8 +57,8 @@ Expected<std::shared_ptr<const ProgrammedCurve>> NurbsCollector::close(int colum
     return too_few(column);
   }
   std::vector<double> knots = has_knots_ ? std::move(knots_) : uniform_knots();
-  auto curve = nurbs::Curve::create(static_cast<int>(order_) - 1, std::move(knots),
-                                    std::move(points_), std::move(weights_));
+  auto curve = geometry::Curve::create(static_cast<int>(order_) - 1, std::move(knots),
+                                       std::move(points_), std::move(weights_));
   if (!curve) {
     return fail_at(column, std::move(curve.error().message));
   }
@@ -102,7 +102,7 @@ Expected<void> NurbsCollector::add_uniform(const LineWords& words, const ModalSt
     }
   }
   if (words.has('X') != words.has('Y')) {
-    return fail_at(words.first_column(kAxes), "a control point of G05.2 needs both X and Y");
+    return fail_at(words.first_column(kAxisLetters), "a control point of G05.2 needs both X and Y");
   }
   if (words.has('X')) {
     return add_point(words, state, 'P');
@@ -122,10 +122,10 @@ Expected<void> NurbsCollector::start_with_knots(const LineWords& words, const Mo
   if (auto set = set_order(words, 'P', 2, 4); !set) {
     return set;
   }
-  if (words.has_any(kAxes)) {
+  if (words.has_any(kAxisLetters)) {
     const double apart = (place_of(words, state) - points_.front()).norm();
     if (!(apart <= kApart)) {
-      return fail_at(words.first_column(kAxes),
+      return fail_at(words.first_column(kAxisLetters),
                      fmt::format("the first control point is {:.4g} mm away from the position "
                                  "before: expected the same place",
                                  apart));
@@ -154,9 +154,9 @@ Expected<void> NurbsCollector::add_with_knot(const LineWords& words, const Modal
     lacks_first_knot_ = false;
     knots_.push_back(words.value('K'));
   }
-  if (words.has_any(kAxes)) {
+  if (words.has_any(kAxisLetters)) {
     if (is_past_points_) {
-      return fail_at(words.first_column(kAxes),
+      return fail_at(words.first_column(kAxisLetters),
                      "a control point behind a knot alone: expected knots to the end");
     }
     if (auto added = add_point(words, state, 'R'); !added) {
@@ -176,11 +176,11 @@ Expected<void> NurbsCollector::add_point(const LineWords& words, const ModalStat
                                          char weight) {
   const Vec3 place = place_of(words, state);
   if (points_.size() >= kMostPoints) {
-    return fail_at(words.first_column(kAxes),
+    return fail_at(words.first_column(kAxisLetters),
                    fmt::format("more than {} control points in one NURBS", kMostPoints));
   }
   if (!(place.cwiseAbs().maxCoeff() <= kFarthest)) {
-    return fail_at(words.first_column(kAxes),
+    return fail_at(words.first_column(kAxisLetters),
                    fmt::format("a control point farther than {:g} mm from the origin", kFarthest));
   }
   points_.push_back(place);
@@ -191,7 +191,7 @@ Expected<void> NurbsCollector::add_point(const LineWords& words, const ModalStat
 Vec3 NurbsCollector::place_of(const LineWords& words, const ModalState& state) const {
   Vec3 place = points_.back();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const char letter = kAxes[static_cast<std::size_t>(axis)];
+    const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
     if (words.has(letter)) {
       place[axis] = words.value(letter) * state.unit;
     }

@@ -6,13 +6,13 @@
 #include "gcode/line_words.hpp"
 #include "gcode/modal_state.hpp"
 #include "gcode/nurbs_collector.hpp"
-#include "nurbs/knot_vector.hpp"
+#include "geometry/nurbs/knot_vector.hpp"
 
 /// The part of NurbsCollector that looks at single words.
 namespace twin::gcode {
 namespace {
 
-constexpr std::size_t kMostOrder = nurbs::kMaxDegree + 1;
+constexpr std::size_t kMostOrder = geometry::kMaxDegree + 1;
 
 }  // namespace
 

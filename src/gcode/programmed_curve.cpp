@@ -13,7 +13,7 @@ constexpr double kStill = 1e-7;  // of the mean of |C'|
 
 }  // namespace
 
-Expected<std::shared_ptr<const ProgrammedCurve>> make_programmed_curve(nurbs::Curve curve) {
+Expected<std::shared_ptr<const ProgrammedCurve>> make_programmed_curve(geometry::Curve curve) {
   auto made = std::make_shared<ProgrammedCurve>();
   made->curve = std::move(curve);
   made->arc_length.build(made->curve, &made->samples);
@@ -22,8 +22,8 @@ Expected<std::shared_ptr<const ProgrammedCurve>> make_programmed_curve(nurbs::Cu
     return fail(ErrorCode::kProgram, "the NURBS has no length: expected control points apart");
   }
   const double still = kStill * length / (made->curve.u_max() - made->curve.u_min());
-  for (const nurbs::CurvatureSample& sample : made->samples) {
-    const nurbs::Derivatives at = made->curve.derivatives(sample.u);
+  for (const geometry::CurvatureSample& sample : made->samples) {
+    const geometry::Derivatives at = made->curve.derivatives(sample.u);
     if (!(at.first.norm() > still)) {
       return fail(ErrorCode::kProgram,
                   fmt::format("the NURBS has no tangent at parameter {:.6g} (X{:.4f} Y{:.4f} "

@@ -11,7 +11,7 @@
 namespace twin::gcode {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ";
+constexpr std::string_view kAxisWords = "XYZ";
 constexpr std::string_view kCentre = "IJK";
 constexpr std::string_view kOfArcs = "IJKR";
 
@@ -68,8 +68,8 @@ Expected<void> check_p_and_dwell(const LineWords& words) {
 
 Expected<void> check_arc_words(const LineWords& words, const ModalState& state) {
   if (!words.has_any(kOfArcs)) {
-    if (words.has_any(kAxes)) {
-      return fail_at(words.first_column(kAxes),
+    if (words.has_any(kAxisWords)) {
+      return fail_at(words.first_column(kAxisWords),
                      fmt::format("{} has no centre: expected {}, or R", name_of(state.motion),
                                  words_of(state.plane).offsets));
     }
@@ -91,7 +91,7 @@ Expected<void> check_arc_words(const LineWords& words, const ModalState& state) 
 }  // namespace
 
 bool asks_for_move(const LineWords& words, const ModalState& state) noexcept {
-  return words.has_any(kAxes) || (state.is_arc() && words.has_any(kOfArcs));
+  return words.has_any(kAxisWords) || (state.is_arc() && words.has_any(kOfArcs));
 }
 
 Expected<void> check_words(const LineWords& words, const ModalState& state) {
@@ -117,7 +117,7 @@ Expected<void> check_words(const LineWords& words, const ModalState& state) {
     return {};
   }
   if (state.motion == MotionMode::kNone) {
-    return fail_at(words.first_column(kAxes),
+    return fail_at(words.first_column(kAxisWords),
                    "a place to go to, but no motion in force: expected G00, G01, G02 or G03");
   }
   if (state.motion != MotionMode::kRapid && !(state.feedrate > 0.0)) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAccuracy = 1e-5;  // of the pieces [mm]
 constexpr int kFewestSpans = 4;
-constexpr int kMostSpans = 4096;
+constexpr int kMostArcSpans = 4096;
 constexpr double kSlack = 2.0;  // of C'''' for the change of radius and the rise
 
 /// Largest curvature that the arc can have [1/mm].
@@ -20,7 +20,7 @@ double tightest(const Arc& arc) noexcept {
 }
 
 /// Bound of the distance of one span from the arc.
-double span_error(const Arc& arc, const nurbs::SpanCubic& span, double s0) noexcept {
+double span_error(const Arc& arc, const geometry::SpanCubic& span, double s0) noexcept {
   const double w = span.end - span.begin;
   double largest = 0.0;
   for (const double s : {span.begin, span.end}) {
@@ -36,7 +36,7 @@ double span_error(const Arc& arc, const nurbs::SpanCubic& span, double s0) noexc
 
 /// Control points on equal spans, and the pieces they make.
 double append(const Arc& arc, double from, double to, double s0, int spans,
-              std::vector<nurbs::SpanCubic>& pieces) {
+              std::vector<geometry::SpanCubic>& pieces) {
   const double w = (to - from) / spans;
   const auto t = [&](int j) { return std::clamp(j, 0, spans) * w; };
   std::vector<Vec3> points;
@@ -65,8 +65,8 @@ double append(const Arc& arc, double from, double to, double s0, int spans,
     for (int k = 0; k < 6; ++k) {
       u[static_cast<std::size_t>(k)] = s0 + from + t(span + k - 2);
     }
-    pieces.push_back(nurbs::span_cubic(
-        nurbs::SpanView{&u[2], &points[static_cast<std::size_t>(span)], nullptr}));
+    pieces.push_back(geometry::span_cubic(
+        geometry::SpanView{&u[2], &points[static_cast<std::size_t>(span)], nullptr}));
     error = std::max(error, span_error(arc, pieces.back(), s0));
   }
   return error;
@@ -91,15 +91,16 @@ Arc arc_part(const Arc& arc, double from, double to) noexcept {
 }
 
 double append_arc_pieces(const Arc& arc, double from, double to, double s0,
-                         std::vector<nurbs::SpanCubic>& pieces) {
+                         std::vector<geometry::SpanCubic>& pieces) {
   const std::size_t first = pieces.size();
   const double k = tightest(arc);
   const double guess = (to - from) * std::pow(0.05 * k * k * k / kAccuracy, 0.25);
-  int spans = static_cast<int>(std::clamp(std::ceil(guess), 1.0 * kFewestSpans, 1.0 * kMostSpans));
+  int spans =
+      static_cast<int>(std::clamp(std::ceil(guess), 1.0 * kFewestSpans, 1.0 * kMostArcSpans));
   spans += spans % 2;
   while (true) {
     const double error = append(arc, from, to, s0, spans, pieces);
-    if (error <= kAccuracy || 2 * spans > kMostSpans) {
+    if (error <= kAccuracy || 2 * spans > kMostArcSpans) {
       return error;
     }
     pieces.resize(first);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "nurbs/span_cubic.hpp"
+#include "geometry/nurbs/span_cubic.hpp"
 #include "path/segment.hpp"
 
 namespace twin::path {
@@ -25,6 +25,6 @@ Arc arc_part(const Arc& arc, double from, double to) noexcept;
 /// @param pieces    gets the pieces appended
 /// @returns the bound [mm]
 double append_arc_pieces(const Arc& arc, double from, double to, double s0,
-                         std::vector<nurbs::SpanCubic>& pieces);
+                         std::vector<geometry::SpanCubic>& pieces);
 
 }  // namespace twin::path

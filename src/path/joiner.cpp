@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "smoothing/piecewise.hpp"
+#include "geometry/smoothing/piecewise.hpp"
 
 namespace twin::path {
 namespace {
@@ -35,7 +35,7 @@ void Joiner::take_arc(const Arc& arc, double begin) {
   end_element();
 }
 
-void Joiner::take_span(const nurbs::SpanCubic& span, double deviation) {
+void Joiner::take_span(const geometry::SpanCubic& span, double deviation) {
   if (under_way_.kind == Kind::kNone) {
     begin_element(Kind::kRun, span.begin, span.end);
   }
@@ -87,8 +87,8 @@ void Joiner::give_away_run() {
   while (run.spans.size() > kFewestHeld &&
          (run.end - run.spans.front().cubic.end >= kWidest || run.spans.size() > kMostHeld)) {
     const Span& span = run.spans.front();
-    if (span.cubic.end - run.from >= smoothing::shortest_part(span.cubic)) {
-      writer_.cubic(smoothing::part_of(span.cubic, run.from, span.cubic.end), span.deviation);
+    if (span.cubic.end - run.from >= geometry::shortest_part(span.cubic)) {
+      writer_.cubic(geometry::part_of(span.cubic, run.from, span.cubic.end), span.deviation);
       run.from = span.cubic.end;
     }
     run.spans.drop_before(run.spans.begin_index() + 1);
@@ -103,9 +103,10 @@ PathPoint Joiner::place(const Element& element, bool at_end) {
   if (element.kind == Kind::kArc) {
     return point_at(element.arc, at_end ? element.arc.length : 0.0);
   }
-  const nurbs::SpanCubic& cubic = at_end ? element.spans.back().cubic : element.spans.front().cubic;
-  const nurbs::SpanCubic there =
-      smoothing::part_of(cubic, at_end ? cubic.end : cubic.begin, cubic.end);
+  const geometry::SpanCubic& cubic =
+      at_end ? element.spans.back().cubic : element.spans.front().cubic;
+  const geometry::SpanCubic there =
+      geometry::part_of(cubic, at_end ? cubic.end : cubic.begin, cubic.end);
   return {there.c0, there.c1, 2.0 * there.c2};
 }
 
@@ -129,11 +130,11 @@ void Joiner::settle_begin() {
   }
   const PathPoint end = place(before_, true);
   const PathPoint begin = place(under_way_, false);
-  smoothing::CornerBump bump{begin.tangent - end.tangent, begin.curvature - end.curvature};
+  geometry::CornerBump bump{begin.tangent - end.tangent, begin.curvature - end.curvature};
   const bool has_jump = bump.turn.norm() > kNoJump || bump.bend.norm() > kNoJump;
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
-  if (width < 2.0 * smoothing::kShortestPiece) {
+  if (width < 2.0 * geometry::kShortestPiece) {
     put_body(before_, before_.end);
     if (has_jump) {
       writer_.end_curve();
@@ -145,7 +146,7 @@ void Joiner::settle_begin() {
 }
 
 /// Half width that the tolerance and both elements allow [mm].
-double Joiner::bump_width(const smoothing::CornerBump& bump) const {
+double Joiner::bump_width(const geometry::CornerBump& bump) const {
   const double tolerance = kShareUsed * std::min(before_.tolerance, under_way_.tolerance);
   const double room = before_.end - before_.from;
   const double corner = before_.end;
@@ -162,15 +163,15 @@ double Joiner::bump_width(const smoothing::CornerBump& bump) const {
   return left > kNothing && left < least ? width - (least - left) : width;
 }
 
-void Joiner::put_corner(const smoothing::CornerBump& bump, double width) {
+void Joiner::put_corner(const geometry::CornerBump& bump, double width) {
   const double corner = before_.end;
   const double base = std::max(deviation(before_, corner - width, corner),
                                deviation(under_way_, corner, corner + width));
   pieces_.clear();
   append_pieces(before_, corner - width, corner);
   append_pieces(under_way_, corner, corner + width);
-  smoothing::add_bump(bump, corner, width, pieces_);
-  for (const nurbs::SpanCubic& piece : pieces_) {
+  geometry::add_bump(bump, corner, width, pieces_);
+  for (const geometry::SpanCubic& piece : pieces_) {
     writer_.cubic(piece, base + bump.height(width));
   }
   under_way_.from = corner + width;
@@ -191,10 +192,10 @@ void Joiner::append_pieces(const Element& element, double begin, double end) {
   double from = begin;
   const std::size_t first = pieces_.size();
   for (std::size_t i = element.spans.begin_index(); i < element.spans.end_index(); ++i) {
-    const nurbs::SpanCubic& span = element.spans[i].cubic;
+    const geometry::SpanCubic& span = element.spans[i].cubic;
     const double to = std::min(span.end, end);
-    if (to - from >= smoothing::shortest_part(span) || (to == end && pieces_.size() == first)) {
-      pieces_.push_back(smoothing::part_of(span, from, to));
+    if (to - from >= geometry::shortest_part(span) || (to == end && pieces_.size() == first)) {
+      pieces_.push_back(geometry::part_of(span, from, to));
       from = to;
     } else if (to > from && pieces_.size() > first) {
       pieces_.back().end = from = to;
@@ -224,7 +225,7 @@ void Joiner::put_body(Element& element, double end) {
   } else {
     pieces_.clear();
     append_pieces(element, element.from, end);
-    for (const nurbs::SpanCubic& piece : pieces_) {
+    for (const geometry::SpanCubic& piece : pieces_) {
       writer_.cubic(piece, deviation(element, piece.begin, piece.end));
     }
   }

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/smoothing/corner_bump.hpp"
+#include "geometry/smoothing/run_spline.hpp"
+#include "geometry/smoothing/sliding_vector.hpp"
 #include "path/arc_part.hpp"
 #include "path/segment_writer.hpp"
-#include "smoothing/corner_bump.hpp"
-#include "smoothing/run_spline.hpp"
-#include "smoothing/sliding_vector.hpp"
 
 namespace twin::path {
 
 /// Joins lines, arcs and smoothed runs with continuous tangent and curvature.
 ///
-/// At a corner the path gets a bump (smoothing::CornerBump) as wide as the tolerance allows, but no
+/// At a corner the path gets a bump (geometry::CornerBump) as wide as the tolerance allows, but no
 /// wider than half of the element on either side, and than kWidest. Within the bump an arc is its
 /// cubic pieces (append_arc_pieces). Beyond, lines and arcs are exact.
 ///
@@ -22,14 +22,14 @@ namespace twin::path {
 /// Elements come in order with their base path lengths; of a run the spans come as they are
 /// settled. Each element but the last part of a run under way is given away as soon as the corner
 /// behind it is known.
-class Joiner : public smoothing::RunSink {
+class Joiner : public geometry::RunSink {
  public:
   explicit Joiner(SegmentWriter& writer) : writer_(writer) {}
 
   /// Tolerance of the elements that follow [mm].
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
 
-  void take_span(const nurbs::SpanCubic& span, double deviation) override;
+  void take_span(const geometry::SpanCubic& span, double deviation) override;
   void take_block(const Vec3& from, const Vec3& to, double begin, double end) override;
   void end_run() override;
   void take_arc(const Arc& arc, double begin);
@@ -38,7 +38,7 @@ class Joiner : public smoothing::RunSink {
 
  private:
   struct Span {
-    nurbs::SpanCubic cubic;
+    geometry::SpanCubic cubic;
     double deviation;
   };
   enum class Kind : std::uint8_t { kNone, kLine, kArc, kRun };
@@ -50,15 +50,15 @@ class Joiner : public smoothing::RunSink {
     double tolerance = 0.0;
     Line line;
     Arc arc;
-    smoothing::SlidingVector<Span> spans;
+    geometry::SlidingVector<Span> spans;
   };
 
   void begin_element(Kind kind, double begin, double end);
   void settle_begin();
   void end_element();
   void give_away_run();
-  double bump_width(const smoothing::CornerBump& bump) const;
-  void put_corner(const smoothing::CornerBump& bump, double width);
+  double bump_width(const geometry::CornerBump& bump) const;
+  void put_corner(const geometry::CornerBump& bump, double width);
   void put_body(Element& element, double end);
 
   static PathPoint place(const Element& element, bool at_end);
@@ -70,7 +70,7 @@ class Joiner : public smoothing::RunSink {
   Element before_;
   Element under_way_;
   bool has_begin_ = false;  // the corner at its begin is settled
-  std::vector<nurbs::SpanCubic> pieces_;
+  std::vector<geometry::SpanCubic> pieces_;
 };
 
 }  // namespace twin::path

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "gcode/programmed_curve.hpp"
-#include "nurbs/refine.hpp"
+#include "geometry/nurbs/refine.hpp"
 #include "path/curve_segment.hpp"
 #include "path/short_block.hpp"
 
@@ -55,7 +55,7 @@ std::vector<Segment> make_nurbs_segments(const gcode::Block& block, std::int64_t
                                          const PlanningModel& model) {
   constexpr int kSmooth = 2;  // derivatives that are continuous
   std::vector<Segment> segments;
-  for (nurbs::Curve& piece : nurbs::split(block.nurbs->curve, {kSmooth, most_spans})) {
+  for (geometry::Curve& piece : geometry::split(block.nurbs->curve, {kSmooth, most_spans})) {
     FittedCurve given;
     given.curve = std::move(piece);
     given.is_programmed = true;

@@ -6,7 +6,7 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "gcode/block.hpp"
-#include "nurbs/fit.hpp"
+#include "geometry/nurbs/fit.hpp"
 #include "path/builder.hpp"
 #include "path/run_fitter.hpp"
 #include "path/segment.hpp"

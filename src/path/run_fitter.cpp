@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "nurbs/deviation.hpp"
+#include "geometry/nurbs/deviation.hpp"
 #include "path/curve_segment.hpp"
 #include "path/path_builder.hpp"
 
@@ -66,21 +66,21 @@ std::size_t RunFitter::piece_length() const {
 }
 
 /// What the curves on both sides of points_[joint] have in common there; nothing at the run's end.
-nurbs::EndCondition RunFitter::condition_at(std::size_t joint) {
+geometry::EndCondition RunFitter::condition_at(std::size_t joint) {
   if (joint >= blocks_.size()) {
     return {};
   }
   if (settings_.curves == CurveKind::kBezier) {
-    return nurbs::circle_condition(points_[joint - 1], points_[joint], points_[joint + 1]);
+    return geometry::circle_condition(points_[joint - 1], points_[joint], points_[joint + 1]);
   }
   const std::size_t from = joint - std::min(joint, kJointPoints);
   const std::size_t to = std::min(joint + kJointPoints, blocks_.size());
-  return nurbs::joint_condition(fitter_, std::span(points_).subspan(from, to - from + 1),
-                                joint - from);
+  return geometry::joint_condition(fitter_, std::span(points_).subspan(from, to - from + 1),
+                                   joint - from);
 }
 
-bool RunFitter::fit(std::span<const Vec3> points, const nurbs::EndCondition& end,
-                    nurbs::Curve& curve) {
+bool RunFitter::fit(std::span<const Vec3> points, const geometry::EndCondition& end,
+                    geometry::Curve& curve) {
   return settings_.curves == CurveKind::kBezier ? bezier_fitter_.fit(points, begin_, end, curve)
                                                 : fitter_.fit(points, begin_, end, curve);
 }
@@ -92,7 +92,7 @@ const std::vector<double>& RunFitter::parameters() const {
 }
 
 void RunFitter::emit_piece(std::size_t count) {
-  const nurbs::EndCondition end = condition_at(first_ + count);
+  const geometry::EndCondition end = condition_at(first_ + count);
   std::size_t worst = 0;
   if (emit_curve(count, end, worst)) {
     begin_ = end;
@@ -119,7 +119,8 @@ void RunFitter::emit_broken(std::size_t worst) {
   emit_lines(worst - before + 1);
 }
 
-bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, std::size_t& worst) {
+bool RunFitter::emit_curve(std::size_t count, const geometry::EndCondition& end,
+                           std::size_t& worst) {
   const auto points = std::span<const Vec3>(points_).subspan(first_, count + 1);
   FittedCurve fitted;
   worst = 0;
@@ -127,11 +128,11 @@ bool RunFitter::emit_curve(std::size_t count, const nurbs::EndCondition& end, st
     return false;
   }
   const std::span<const double> at(parameters());
-  if (nurbs::deviation_bound(fitted.curve, points, at) > tolerance()) {
+  if (geometry::deviation_bound(fitted.curve, points, at) > tolerance()) {
     double largest = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const double deviation =
-          nurbs::deviation_bound(fitted.curve, points.subspan(i, 2), at.subspan(i, 2));
+          geometry::deviation_bound(fitted.curve, points.subspan(i, 2), at.subspan(i, 2));
       if (deviation > largest) {
         largest = deviation;
         worst = i;

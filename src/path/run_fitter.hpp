@@ -8,8 +8,8 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "gcode/block.hpp"
-#include "nurbs/bezier_fit.hpp"
-#include "nurbs/fit.hpp"
+#include "geometry/nurbs/bezier_fit.hpp"
+#include "geometry/nurbs/fit.hpp"
 #include "path/segment.hpp"
 
 namespace twin::path {
@@ -48,10 +48,10 @@ class RunFitter {
   std::size_t piece_length() const;
   double tolerance() const;
   void emit_piece(std::size_t count);
-  nurbs::EndCondition condition_at(std::size_t joint);
-  bool fit(std::span<const Vec3> points, const nurbs::EndCondition& end, nurbs::Curve& curve);
+  geometry::EndCondition condition_at(std::size_t joint);
+  bool fit(std::span<const Vec3> points, const geometry::EndCondition& end, geometry::Curve& curve);
   const std::vector<double>& parameters() const;
-  bool emit_curve(std::size_t count, const nurbs::EndCondition& end, std::size_t& worst);
+  bool emit_curve(std::size_t count, const geometry::EndCondition& end, std::size_t& worst);
   void emit_lines(std::size_t count);
   void emit_broken(std::size_t worst);
   void advance(std::size_t count);
@@ -62,12 +62,12 @@ class RunFitter {
   PlanningModel model_;
   Limits limits_;
   Sink sink_;
-  nurbs::Fitter fitter_;
-  nurbs::BezierFitter bezier_fitter_;
+  geometry::Fitter fitter_;
+  geometry::BezierFitter bezier_fitter_;
   std::vector<RunBlock> blocks_;  // [0, first_) are settled and kept for the next joint only
   std::vector<Vec3> points_;      // start of blocks_[0] and the end of each block
   std::size_t first_ = 0;
-  nurbs::EndCondition begin_;  // of the next piece
+  geometry::EndCondition begin_;  // of the next piece
 };
 
 }  // namespace twin::path

@@ -61,7 +61,7 @@ PathPoint point_at(const Arc& arc, double s) noexcept {
           (second - second.dot(tangent) * tangent) / (pace * pace)};
 }
 
-PathPoint point_from(const nurbs::Derivatives& d) noexcept {
+PathPoint point_from(const geometry::Derivatives& d) noexcept {
   const double pace = d.first.norm();
   const Vec3 tangent = pace > 0.0 ? Vec3(d.first / pace) : Vec3::UnitX();
   const Vec3 curvature = pace > 0.0

@@ -6,8 +6,8 @@
 
 #include "core/vec.hpp"
 #include "gcode/block.hpp"
-#include "nurbs/arc_length.hpp"
-#include "nurbs/curve.hpp"
+#include "geometry/nurbs/arc_length.hpp"
+#include "geometry/nurbs/curve.hpp"
 
 namespace twin::path {
 
@@ -32,10 +32,10 @@ struct Arc {
 
 /// Fitted run of short blocks, or part of a NURBS of the program, with its measured arc length.
 struct FittedCurve {
-  nurbs::Curve curve;
-  nurbs::ArcLength arc_length;
-  std::vector<nurbs::CurvatureSample> curvature;  ///< ascending in s, both ends included
-  bool is_programmed = false;                     ///< it is of the program, not fitted
+  geometry::Curve curve;
+  geometry::ArcLength arc_length;
+  std::vector<geometry::CurvatureSample> curvature;  ///< ascending in s, both ends included
+  bool is_programmed = false;                        ///< it is of the program, not fitted
 };
 
 /// Where a block of the program ends on a segment.
@@ -71,7 +71,7 @@ PathPoint point_at(const Arc& arc, double s) noexcept;
 double fraction_at(const Arc& arc, double s) noexcept;
 
 /// Place at which a curve has these derivatives with respect to its parameter.
-PathPoint point_from(const nurbs::Derivatives& at) noexcept;
+PathPoint point_from(const geometry::Derivatives& at) noexcept;
 
 /// Measures an arc.
 Arc make_arc(const gcode::ArcGeometry& geometry) noexcept;

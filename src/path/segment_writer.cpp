@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/smoothing/piecewise.hpp"
 #include "path/curve_segment.hpp"
-#include "smoothing/piecewise.hpp"
 
 namespace twin::path {
 namespace {
@@ -26,22 +26,22 @@ void SegmentWriter::advance_to(double s) {
   }
 }
 
-void SegmentWriter::cubic(const nurbs::SpanCubic& piece, double deviation) {
-  nurbs::SpanCubic rest = piece;
-  const double least = smoothing::shortest_part(piece);
+void SegmentWriter::cubic(const geometry::SpanCubic& piece, double deviation) {
+  geometry::SpanCubic rest = piece;
+  const double least = geometry::shortest_part(piece);
   advance_to(rest.begin + least);
   while (blocks_[at_].end < rest.end - least && at_ + 1 < blocks_.end_index()) {
     const double end = blocks_[at_].end;
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
-      append(smoothing::part_of(rest, rest.begin, end), deviation);
-      rest = smoothing::part_of(rest, end, rest.end);
+      append(geometry::part_of(rest, rest.begin, end), deviation);
+      rest = geometry::part_of(rest, end, rest.end);
     }
     advance_to(end + least);
   }
   append(rest, deviation);
 }
 
-void SegmentWriter::append(const nurbs::SpanCubic& piece, double deviation) {
+void SegmentWriter::append(const geometry::SpanCubic& piece, double deviation) {
   if (pieces_.empty()) {
     first_ = at_;
   }
@@ -60,7 +60,7 @@ void SegmentWriter::flush() {
   const double begin = pieces_.front().begin;
   const double end = pieces_.back().end;
   FittedCurve fitted;
-  fitted.curve = smoothing::curve_from_pieces(pieces_);
+  fitted.curve = geometry::curve_from_pieces(pieces_);
   measure(fitted);
   Segment segment = make_curve_segment(std::move(fitted));
   segment.deviation = deviation_;

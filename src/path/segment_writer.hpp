@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "nurbs/span_cubic.hpp"
+#include "geometry/nurbs/span_cubic.hpp"
+#include "geometry/smoothing/sliding_vector.hpp"
 #include "path/builder.hpp"
 #include "path/segment.hpp"
-#include "smoothing/sliding_vector.hpp"
 
 namespace twin::path {
 
@@ -42,7 +42,7 @@ class SegmentWriter {
 
   /// The next piece.
   /// @param deviation  bound of its distance from the programmed path, both ways [mm]
-  void cubic(const nurbs::SpanCubic& piece, double deviation);
+  void cubic(const geometry::SpanCubic& piece, double deviation);
   /// A straight piece from base path length `begin` to `end`.
   void line(const Line& line, double begin, double end);
   void arc(const Arc& arc, double begin, double end);
@@ -56,7 +56,7 @@ class SegmentWriter {
  private:
   void flush();
   void advance_to(double s);
-  void append(const nurbs::SpanCubic& piece, double deviation);
+  void append(const geometry::SpanCubic& piece, double deviation);
   void exact(Segment&& segment, double begin, double end);
   void set_demands(Segment& segment) const;
   template <class PlaceOf>
@@ -64,11 +64,11 @@ class SegmentWriter {
   void put(Segment&& segment);
 
   Builder::Sink sink_;
-  smoothing::SlidingVector<BlockDemand> blocks_;  // not yet over
-  BlockDemand latest_;                            // the last one that was over
-  std::size_t at_ = 0;                            // block of the latest piece
-  std::size_t first_ = 0;                         // block whose demands the segment under way has
-  std::vector<nurbs::SpanCubic> pieces_;          // of the curve under way
+  geometry::SlidingVector<BlockDemand> blocks_;  // not yet over
+  BlockDemand latest_;                           // the last one that was over
+  std::size_t at_ = 0;                           // block of the latest piece
+  std::size_t first_ = 0;                        // block whose demands the segment under way has
+  std::vector<geometry::SpanCubic> pieces_;      // of the curve under way
   double deviation_ = 0.0;
   double tail_deviation_ = 0.0;  // of the blocks at the end of the last segment
   std::optional<Segment> last_;

@@ -7,10 +7,10 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "gcode/block.hpp"
+#include "geometry/smoothing/run_spline.hpp"
 #include "path/builder.hpp"
 #include "path/joiner.hpp"
 #include "path/segment_writer.hpp"
-#include "smoothing/run_spline.hpp"
 
 namespace twin::path {
 
@@ -20,7 +20,7 @@ namespace twin::path {
 /// The tolerance of a block is that of its G64 P, else the corner error, in runs no more than the
 /// chord error. Two G01 blocks meet in a smooth vertex if neither is longer than a short block and
 /// the sagitta there (bi_chord_error) is no more than the tolerance; at what feedrate does not
-/// matter. Blocks between smooth vertices are a run (smoothing::RunSpline); all other vertices are
+/// matter. Blocks between smooth vertices are a run (geometry::RunSpline); all other vertices are
 /// corners (Joiner).
 ///
 /// Lines that stay within half of kSpeck of the tolerance of where they begin are left out: the
@@ -66,7 +66,7 @@ class SmoothBuilder : public Builder {
   Limits limits_;
   SegmentWriter writer_;
   Joiner joiner_;
-  smoothing::RunSpline run_;
+  geometry::RunSpline run_;
   LineBlock line_;  // the latest, not pushed yet
   LineBlock last_;  // of the run
   bool has_line_ = false;

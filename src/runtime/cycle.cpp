@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "servo/axis_scaling.hpp"
+#include "motion/servo/axis_scaling.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -14,16 +14,17 @@ double seconds_since(WallClock::time_point start) noexcept {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
-servo::AxisServo make_servo(const hal::Machine* machine, std::size_t axis,
-                            const std::array<servo::Gains, hal::kServoAxes>& gains, double period) {
+motion::AxisServo make_servo(const hal::Machine* machine, std::size_t axis,
+                             const std::array<motion::Gains, hal::kServoAxes>& gains,
+                             double period) {
   return {gains[axis], machine == nullptr ? 1.0 : machine->info().mm_per_s_per_volt[axis], period};
 }
 
 }  // namespace
 
-Cycle::Cycle(interpolator::Interpolator& interpolator, hal::Machine* machine,
-             const std::array<servo::Gains, hal::kServoAxes>& gains, double period,
-             const safety::Settings& safety, double feedrate)
+Cycle::Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
+             const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
+             const motion::SafetySettings& safety, double feedrate)
     : interpolator_(interpolator),
       machine_(machine),
       period_(period),
@@ -40,17 +41,17 @@ hal::Status Cycle::read(double interval) noexcept {
   return machine_ == nullptr ? hal::Status::kOk : machine_->read(inputs_);
 }
 
-interpolator::Status Cycle::prepare() noexcept {
+motion::Status Cycle::prepare() noexcept {
   const auto start = WallClock::now();
-  const interpolator::Status status = interpolator_.step(set_point_);
+  const motion::Status status = interpolator_.step(set_point_);
   prepare_time_ = seconds_since(start);
   return status;
 }
 
 Vec2 Cycle::position_of_counts() const noexcept {
   const auto& scale = machine_->info().mm_per_count;
-  return {servo::position_from_counts(inputs_.counts[hal::kX], scale[hal::kX]),
-          servo::position_from_counts(inputs_.counts[hal::kY], scale[hal::kY])};
+  return {motion::position_from_counts(inputs_.counts[hal::kX], scale[hal::kX]),
+          motion::position_from_counts(inputs_.counts[hal::kY], scale[hal::kY])};
 }
 
 Vec2 Cycle::true_position() const noexcept {
@@ -76,7 +77,7 @@ bool Cycle::is_safe() noexcept {
   if (!monitors_) {
     return true;
   }
-  std::array<safety::AxisView, hal::kServoAxes> views;
+  std::array<motion::AxisView, hal::kServoAxes> views;
   const double feedrate = set_point_.velocity.norm();
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -97,7 +98,7 @@ bool Cycle::is_safe() noexcept {
   if (!found) {
     return true;
   }
-  const bool is_immediate = found->reaction == safety::Reaction::kImmediate;
+  const bool is_immediate = found->reaction == motion::Reaction::kImmediate;
   if (!trip_ || is_immediate) {
     trip_ = stamped(*found);
   }
@@ -118,7 +119,7 @@ bool Cycle::write() noexcept {
   return true;
 }
 
-hal::Status Cycle::respond(trace::Sample& sample) noexcept {
+hal::Status Cycle::respond(results::Sample& sample) noexcept {
   bool is_fine = true;
   if (machine_ != nullptr) {
     const auto start = WallClock::now();
@@ -139,7 +140,7 @@ hal::Status Cycle::respond(trace::Sample& sample) noexcept {
 hal::Status Cycle::respond_at_rest() noexcept {
   set_point_.velocity.setZero();
   set_point_.acceleration.setZero();
-  trace::Sample unused;
+  results::Sample unused;
   const std::int64_t periods = periods_;
   prepare_time_ = 0.0;
   const hal::Status status = respond(unused);
@@ -147,7 +148,7 @@ hal::Status Cycle::respond_at_rest() noexcept {
   return status;
 }
 
-void Cycle::pass_over(trace::Sample& sample, double share) noexcept {
+void Cycle::pass_over(results::Sample& sample, double share) noexcept {
   fill(sample);
   const Vec2 now = position_of_counts();
   sample.encoder = measured_ + share * (now - measured_);
@@ -157,7 +158,7 @@ void Cycle::pass_over(trace::Sample& sample, double share) noexcept {
   ++periods_;
 }
 
-hal::Status Cycle::exchange(trace::Sample& sample) noexcept {
+hal::Status Cycle::exchange(results::Sample& sample) noexcept {
   return read(period_) == hal::Status::kOk ? respond(sample) : hal::Status::kError;
 }
 
@@ -165,7 +166,7 @@ hal::Status Cycle::hold() noexcept {
   return read(period_) == hal::Status::kOk ? respond_at_rest() : hal::Status::kError;
 }
 
-void Cycle::fill(trace::Sample& sample) const noexcept {
+void Cycle::fill(results::Sample& sample) const noexcept {
   sample.t = time();
   sample.segment = set_point_.segment;
   sample.block = set_point_.block;
@@ -184,7 +185,7 @@ std::size_t Cycle::axis_not_ready() const noexcept {
   return static_cast<std::size_t>(std::find(ready.begin(), ready.end(), false) - ready.begin());
 }
 
-safety::Trip Cycle::stamped(safety::Trip trip) const noexcept {
+motion::Trip Cycle::stamped(motion::Trip trip) const noexcept {
   trip.time = time();
   trip.line = set_point_.line;
   return trip;

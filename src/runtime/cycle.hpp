@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "hal/machine.hpp"
-#include "interpolator/interpolator.hpp"
-#include "safety/monitors.hpp"
-#include "servo/axis_servo.hpp"
-#include "servo/gains.hpp"
-#include "trace/sample.hpp"
+#include "motion/interpolator/interpolator.hpp"
+#include "motion/safety/monitors.hpp"
+#include "motion/servo/axis_servo.hpp"
+#include "motion/servo/gains.hpp"
+#include "results/trace/sample.hpp"
 
 namespace twin::runtime {
 
@@ -34,25 +34,25 @@ class Cycle {
   /// @param machine   configured and active; null for a plan without a machine
   /// @param period    interpolation period T [s]
   /// @param feedrate  largest feedrate of the machine [mm/s]
-  Cycle(interpolator::Interpolator& interpolator, hal::Machine* machine,
-        const std::array<servo::Gains, hal::kServoAxes>& gains, double period,
-        const safety::Settings& safety = {}, double feedrate = Limits{}.feedrate);
+  Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
+        const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
+        const motion::SafetySettings& safety = {}, double feedrate = Limits{}.feedrate);
 
   /// Fetches the inputs. Real-time safe. @param interval since the last read [s]
   hal::Status read(double interval) noexcept;
   /// Fetches the next set point; on anything but kMoving the last one stands. Real-time safe.
-  interpolator::Status prepare() noexcept;
+  motion::Status prepare() noexcept;
   /// Answers the inputs with the drive commands of the set point. Real-time safe.
-  hal::Status respond(trace::Sample& sample) noexcept;
+  hal::Status respond(results::Sample& sample) noexcept;
   /// The same for the last set point, at rest. Real-time safe.
   hal::Status respond_at_rest() noexcept;
   /// Passes over a set point whose period never began: nothing is written. Measured values of the
   /// sample lie between those of the period before and those just read. Real-time safe.
   /// @param share  how far between them, 0 to 1
-  void pass_over(trace::Sample& sample, double share) noexcept;
+  void pass_over(results::Sample& sample, double share) noexcept;
 
   /// read() and respond(). Real-time safe.
-  hal::Status exchange(trace::Sample& sample) noexcept;
+  hal::Status exchange(results::Sample& sample) noexcept;
   /// read() and respond_at_rest(). Real-time safe.
   hal::Status hold() noexcept;
 
@@ -60,7 +60,7 @@ class Cycle {
   /// Whether the machine's time passes by itself, on the wall clock.
   bool keeps_own_time() const noexcept { return has_machine() && machine_->info().keeps_own_time; }
   /// Servo ready of both axes at the last read().
-  bool is_ready() const noexcept { return axis_not_ready() == safety::kNoAxis; }
+  bool is_ready() const noexcept { return axis_not_ready() == motion::kNoAxis; }
   /// The first axis without servo ready at the last read(), or kNoAxis.
   std::size_t axis_not_ready() const noexcept;
   /// Counts and switches as of the last read().
@@ -68,11 +68,11 @@ class Cycle {
   /// What the counts mean [mm].
   const Vec2& measured() const noexcept { return measured_; }
   /// What the monitors have found first.
-  const std::optional<safety::Trip>& trip() const noexcept { return trip_; }
+  const std::optional<motion::Trip>& trip() const noexcept { return trip_; }
   /// Time of the next sample, since the first one [s].
   double time() const noexcept { return static_cast<double>(periods_) * period_; }
   /// A trip as of this period, about the whole machine or one axis. Real-time safe.
-  safety::Trip stamped(safety::Trip trip) const noexcept;
+  motion::Trip stamped(motion::Trip trip) const noexcept;
   /// 0 V and servo off. Not real-time safe.
   void switch_off() noexcept;
 
@@ -82,17 +82,17 @@ class Cycle {
   void close_loops() noexcept;
   bool is_safe() noexcept;
   bool write() noexcept;
-  void fill(trace::Sample& sample) const noexcept;
+  void fill(results::Sample& sample) const noexcept;
 
-  interpolator::Interpolator& interpolator_;
+  motion::Interpolator& interpolator_;
   hal::Machine* machine_;
   double period_;
-  std::array<servo::AxisServo, hal::kServoAxes> servos_;
-  std::optional<safety::Monitors> monitors_;
-  std::optional<safety::Trip> trip_;
+  std::array<motion::AxisServo, hal::kServoAxes> servos_;
+  std::optional<motion::Monitors> monitors_;
+  std::optional<motion::Trip> trip_;
   hal::Inputs inputs_{};
   hal::Outputs outputs_{};
-  interpolator::SetPoint set_point_{};
+  motion::SetPoint set_point_{};
   Vec2 measured_ = Vec2::Zero();
   Vec2 table_ = Vec2::Zero();
   double interval_ = 0.0;      // [s]

@@ -7,20 +7,20 @@
 namespace twin::runtime {
 namespace {
 
-metrics::TimeFigures figures_of(const metrics::LogHistogram& times) {
+results::TimeFigures figures_of(const results::LogHistogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.max()};
 }
 
 }  // namespace
 
-void CycleTiming::add(const trace::Sample& sample) noexcept {
+void CycleTiming::add(const results::Sample& sample) noexcept {
   wake_up_.add(sample.wake_up_latency);
   compute_.add(sample.cycle_time);
   total_.add(sample.total_time);
 }
 
-metrics::RealTimeFigures CycleTiming::figures() const {
-  metrics::RealTimeFigures figures;
+results::RealTimeFigures CycleTiming::figures() const {
+  results::RealTimeFigures figures;
   figures.wake_up = figures_of(wake_up_);
   figures.compute = figures_of(compute_);
   figures.total = figures_of(total_);
@@ -32,7 +32,7 @@ std::string CycleTiming::to_csv() const {
     return wake_up_.count_in(k) + compute_.count_in(k) + total_.count_in(k) > 0;
   };
   std::size_t first = 0;
-  std::size_t last = metrics::LogHistogram::kBins;
+  std::size_t last = results::LogHistogram::kBins;
   while (first < last && !any(first)) {
     ++first;
   }
@@ -41,7 +41,7 @@ std::string CycleTiming::to_csv() const {
   }
   std::string text = "time_us,wake_up,compute,total\n";
   for (std::size_t k = first; k < last; ++k) {
-    text += fmt::format("{:.6g},{},{},{}\n", metrics::LogHistogram::lower_end(k) * 1e6,
+    text += fmt::format("{:.6g},{},{},{}\n", results::LogHistogram::lower_end(k) * 1e6,
                         wake_up_.count_in(k), compute_.count_in(k), total_.count_in(k));
   }
   return text;

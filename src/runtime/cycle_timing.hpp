@@ -2,28 +2,28 @@
 
 #include <string>
 
-#include "metrics/log_histogram.hpp"
-#include "metrics/summary.hpp"
-#include "trace/sample.hpp"
+#include "results/metrics/log_histogram.hpp"
+#include "results/metrics/summary.hpp"
+#include "results/trace/sample.hpp"
 
 namespace twin::runtime {
 
 /// Histograms of what the cycle measured on the wall clock.
 class CycleTiming {
  public:
-  void add(const trace::Sample& sample) noexcept;
+  void add(const results::Sample& sample) noexcept;
 
   /// The figures that come from samples; late periods and notes are known to the motion thread.
-  metrics::RealTimeFigures figures() const;
+  results::RealTimeFigures figures() const;
 
   /// Counts per bin of a sixteenth of an octave, "time_us,wake_up,compute,total", from the first
   /// bin that has any to the last; time_us is the bin's lower end.
   std::string to_csv() const;
 
  private:
-  metrics::LogHistogram wake_up_;
-  metrics::LogHistogram compute_;
-  metrics::LogHistogram total_;
+  results::LogHistogram wake_up_;
+  results::LogHistogram compute_;
+  results::LogHistogram total_;
 };
 
 }  // namespace twin::runtime

@@ -1,4 +1,5 @@
 #include "runtime/feed_control.hpp"
+#include "runtime/nap.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -13,11 +14,9 @@ constexpr double kWallClockMargin = 0.1;  // for planning and for braking [s]
 constexpr double kGuardPeriods = 4.0;     // at the largest feedrate, more than Motion's guard wants
 constexpr double kLargestMargin = 1.0;    // [s]
 
-void nap() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
-
 }  // namespace
 
-FeedControl::FeedControl(interpolator::Interpolator& interpolator, SegmentQueue& segments,
+FeedControl::FeedControl(motion::Interpolator& interpolator, SegmentQueue& segments,
                          ReplanLink& link, OperatorPanel& panel, const Options& options)
     : interpolator_(interpolator),
       segments_(segments),
@@ -175,13 +174,13 @@ void FeedControl::follow_up(double t, bool holds) noexcept {
   }
 }
 
-void FeedControl::record(const metrics::OverrideRecord& change) noexcept {
+void FeedControl::record(const results::OverrideRecord& change) noexcept {
   if (records_.size() < kMostRecords) {
     records_.push_back(change);
   }
 }
 
-void FeedControl::show(const trace::Sample& sample) noexcept {
+void FeedControl::show(const results::Sample& sample) noexcept {
   const bool is_still = interpolator_.is_at_rest() || interpolator_.is_braking();
   const MotionState state = !is_still  ? MotionState::kMoving
                             : is_hold_ ? MotionState::kHolding

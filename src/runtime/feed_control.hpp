@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "feedrate/ramp_limits.hpp"
-#include "interpolator/interpolator.hpp"
-#include "metrics/override_record.hpp"
+#include "feedrate/profile/ramp_limits.hpp"
+#include "motion/interpolator/interpolator.hpp"
+#include "results/metrics/override_record.hpp"
+#include "results/trace/sample.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
 #include "runtime/replan_link.hpp"
 #include "runtime/segment_queue.hpp"
-#include "trace/sample.hpp"
 
 namespace twin::runtime {
 
@@ -37,7 +37,7 @@ class FeedControl {
     double feedrate = 200.0;  ///< largest of the machine [mm/s]
   };
 
-  FeedControl(interpolator::Interpolator& interpolator, SegmentQueue& segments, ReplanLink& link,
+  FeedControl(motion::Interpolator& interpolator, SegmentQueue& segments, ReplanLink& link,
               OperatorPanel& panel, const Options& options);
 
   /// Before each set point. Real-time safe on the wall clock. @param t since the first set point
@@ -47,13 +47,13 @@ class FeedControl {
   /// Whether the rest on the path is one that the operator asked for, a part of the motion's time.
   bool is_hold() const noexcept { return is_hold_; }
   /// Shows the motion on the panel. Real-time safe.
-  void show(const trace::Sample& sample) noexcept;
+  void show(const results::Sample& sample) noexcept;
   void show_end() noexcept;
 
   /// What the first plan is made for [%].
   double first_percent() const noexcept { return first_percent_; }
   /// The changes, in their order.
-  const std::vector<metrics::OverrideRecord>& records() const noexcept { return records_; }
+  const std::vector<results::OverrideRecord>& records() const noexcept { return records_; }
 
  private:
   enum class State : std::uint8_t { kFollowing, kAsked, kArmed, kPriming };
@@ -66,9 +66,9 @@ class FeedControl {
   double least_margin() const noexcept;
   bool accept(const ReplanOffer& offer) noexcept;
   void follow_up(double t, bool holds) noexcept;
-  void record(const metrics::OverrideRecord& change) noexcept;
+  void record(const results::OverrideRecord& change) noexcept;
 
-  interpolator::Interpolator& interpolator_;
+  motion::Interpolator& interpolator_;
   SegmentQueue& segments_;
   ReplanLink& link_;
   OperatorPanel& panel_;
@@ -84,7 +84,7 @@ class FeedControl {
   double margin_;           // [s]
   bool is_hold_ = false;
   bool rests_first_ = false;  // no place ahead suited
-  std::vector<metrics::OverrideRecord> records_;
+  std::vector<results::OverrideRecord> records_;
 };
 
 }  // namespace twin::runtime

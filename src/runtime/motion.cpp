@@ -5,18 +5,17 @@
 #include <cmath>
 #include <thread>
 
+#include "runtime/nap.hpp"
 #include "runtime/off_at_the_end.hpp"
 #include "runtime/pacer.hpp"
 
 namespace twin::runtime {
 namespace {
 
-void nap() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
-
 /// State of one run of the motion thread.
 class Motion {
  public:
-  Motion(Cycle& cycle, interpolator::Interpolator& interpolator, SegmentQueue& segments,
+  Motion(Cycle& cycle, motion::Interpolator& interpolator, SegmentQueue& segments,
          SampleQueue& samples, const Limits& limits, const Pace& pace,
          const std::atomic<bool>& stop)
       : cycle_(cycle),
@@ -39,13 +38,13 @@ class Motion {
   std::optional<MotionEnd> follow_path();
   bool begin_period();
   bool rest_one_period();
-  bool exchange(trace::Sample& sample);
+  bool exchange(results::Sample& sample);
   void guard_supply();
-  void record(const trace::Sample& sample);
+  void record(const results::Sample& sample);
   void pass_over_missed();
   std::optional<MotionEnd> wait_on_path();
   std::optional<MotionEnd> exchange_and_record();
-  void trip(safety::Trip trip);
+  void trip(motion::Trip trip);
   void take_trip() {
     if (cycle_.trip()) {
       trip(*cycle_.trip());
@@ -56,7 +55,7 @@ class Motion {
   bool has_to_stop() const { return trip_ || met_at_ || stop_.load(std::memory_order_relaxed); }
 
   Cycle& cycle_;
-  interpolator::Interpolator& interpolator_;
+  motion::Interpolator& interpolator_;
   SegmentQueue& segments_;
   SampleQueue& samples_;
   feedrate::RampLimits ramp_;
@@ -67,10 +66,10 @@ class Motion {
   Pacer pacer_;
   WakeUp wake_up_{};
   std::int64_t periods_ = 0;  // begun on the wall clock
-  std::optional<safety::Trip> trip_;
+  std::optional<motion::Trip> trip_;
   std::optional<Vec2> met_at_;
   bool is_recording_ = true;
-  interpolator::Status status_ = interpolator::Status::kMoving;  // of the last turn
+  motion::Status status_ = motion::Status::kMoving;  // of the last turn
 };
 
 /// Wall clock: sleeps until the period begins and reads the machine at once.
@@ -87,9 +86,9 @@ bool Motion::begin_period() {
 }
 
 /// The first trip is what is reported, but for one that the machine is switched off by.
-void Motion::trip(safety::Trip trip) {
-  if (!trip_ || (trip_->reaction == safety::Reaction::kControlled &&
-                 trip.reaction == safety::Reaction::kImmediate)) {
+void Motion::trip(motion::Trip trip) {
+  if (!trip_ || (trip_->reaction == motion::Reaction::kControlled &&
+                 trip.reaction == motion::Reaction::kImmediate)) {
     trip_ = trip;
   }
 }
@@ -104,7 +103,7 @@ bool Motion::rest_one_period() {
 }
 
 /// The period of a set point; on the wall clock it has begun already.
-bool Motion::exchange(trace::Sample& sample) {
+bool Motion::exchange(results::Sample& sample) {
   const hal::Status status = pace_.is_wall_clock ? cycle_.respond(sample) : cycle_.exchange(sample);
   take_trip();
   if (pace_.is_wall_clock) {
@@ -118,7 +117,7 @@ bool Motion::exchange(trace::Sample& sample) {
 }
 
 MotionEnd Motion::failed() const {
-  return trip_ && trip_->reaction == safety::Reaction::kImmediate ? MotionEnd::kTripped
+  return trip_ && trip_->reaction == motion::Reaction::kImmediate ? MotionEnd::kTripped
                                                                   : MotionEnd::kMachineError;
 }
 
@@ -138,7 +137,7 @@ std::optional<MotionEnd> Motion::settle() {
   bool is_ready = false;
   for (long i = 0; i < last || !is_ready; ++i) {
     if (!is_ready && i >= timeout) {
-      safety::Trip late{safety::Kind::kNotReady, cycle_.axis_not_ready()};
+      motion::Trip late{motion::Kind::kNotReady, cycle_.axis_not_ready()};
       late.value = static_cast<double>(i) * pace_.period;
       late.limit = pace_.ready_timeout;
       trip(cycle_.stamped(late));
@@ -176,15 +175,15 @@ void Motion::guard_supply() {
 }
 
 /// Off the wall clock waits for room; on it a full queue ends recording and motion.
-void Motion::record(const trace::Sample& sample) {
+void Motion::record(const results::Sample& sample) {
   while (is_recording_ && !samples_.push(sample)) {
     if (!pace_.is_wall_clock) {
       nap();
       continue;
     }
     is_recording_ = false;
-    trip(cycle_.stamped({safety::Kind::kSamplesLost, safety::kNoAxis, 0.0, 0.0, 0.0, 0,
-                         safety::reaction_to(safety::Kind::kSamplesLost)}));
+    trip(cycle_.stamped({motion::Kind::kSamplesLost, motion::kNoAxis, 0.0, 0.0, 0.0, 0,
+                         motion::reaction_to(motion::Kind::kSamplesLost)}));
   }
 }
 
@@ -202,7 +201,7 @@ std::optional<MotionEnd> Motion::wait_on_path() {
 
 /// A recorded period: at a set point of the path, or at rest in a feed hold.
 std::optional<MotionEnd> Motion::exchange_and_record() {
-  trace::Sample sample;
+  results::Sample sample;
   const bool is_fine = exchange(sample);
   if (is_fine || failed() == MotionEnd::kTripped) {
     record(sample);
@@ -218,10 +217,10 @@ void Motion::pass_over_missed() {
   const double pieces = wake_up_.missed + 1.0;
   for (int i = 1; i <= wake_up_.missed; ++i) {
     guard_supply();
-    if (cycle_.prepare() != interpolator::Status::kMoving) {
+    if (cycle_.prepare() != motion::Status::kMoving) {
       return;
     }
-    trace::Sample sample;
+    results::Sample sample;
     cycle_.pass_over(sample, i / pieces);
     record(sample);
   }
@@ -240,18 +239,18 @@ std::optional<MotionEnd> Motion::follow_path() {
     return wait_on_path();
   }
   guard_supply();
-  if (pace_.feed != nullptr && !has_to_stop() && status_ != interpolator::Status::kStarved) {
+  if (pace_.feed != nullptr && !has_to_stop() && status_ != motion::Status::kStarved) {
     pace_.feed->update(cycle_.time(), stop_);
   }
   status_ = cycle_.prepare();
-  if (status_ == interpolator::Status::kDone) {
+  if (status_ == motion::Status::kDone) {
     return at_rest();
   }
-  const bool is_at_rest = status_ == interpolator::Status::kAtRest;
+  const bool is_at_rest = status_ == motion::Status::kAtRest;
   if (is_at_rest && (has_to_stop() || pace_.feed == nullptr)) {
     return at_rest();
   }
-  if (status_ == interpolator::Status::kMoving || (is_at_rest && pace_.feed->is_hold())) {
+  if (status_ == motion::Status::kMoving || (is_at_rest && pace_.feed->is_hold())) {
     return exchange_and_record();
   }
   return wait_on_path();
@@ -291,9 +290,9 @@ MotionResult Motion::run() {
 
 }  // namespace
 
-MotionResult run_motion(Cycle& cycle, interpolator::Interpolator& interpolator,
-                        SegmentQueue& segments, SampleQueue& samples, const Limits& limits,
-                        const Pace& pace, const std::atomic<bool>& stop) {
+MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, SegmentQueue& segments,
+                        SampleQueue& samples, const Limits& limits, const Pace& pace,
+                        const std::atomic<bool>& stop) {
   return Motion(cycle, interpolator, segments, samples, limits, pace, stop).run();
 }
 

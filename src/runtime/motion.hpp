@@ -10,18 +10,18 @@
 #include "core/realtime_settings.hpp"
 #include "core/vec.hpp"
 #include "hal/machine.hpp"
+#include "motion/safety/trip.hpp"
+#include "results/trace/sample.hpp"
 #include "runtime/clock.hpp"
 #include "runtime/cycle.hpp"
 #include "runtime/feed_control.hpp"
 #include "runtime/hooks.hpp"
 #include "runtime/segment_queue.hpp"
-#include "safety/trip.hpp"
-#include "trace/sample.hpp"
 
 namespace twin::runtime {
 
 /// The bounded buffer of samples between motion thread and recorder.
-using SampleQueue = boost::lockfree::spsc_queue<trace::Sample>;
+using SampleQueue = boost::lockfree::spsc_queue<results::Sample>;
 
 /// How a motion ended.
 enum class MotionEnd : std::uint8_t {
@@ -34,7 +34,7 @@ enum class MotionEnd : std::uint8_t {
 /// What is known of a motion after its end.
 struct MotionResult {
   MotionEnd end = MotionEnd::kDone;
-  std::optional<safety::Trip> trip;  ///< what ended it, with kTripped
+  std::optional<motion::Trip> trip;  ///< what ended it, with kTripped
   Vec2 rest_at = Vec2::Zero();       ///< measured at its end [mm]
   std::optional<Vec2> met_at;        ///< measured, where Pace::until came true [mm]
   std::int64_t late_periods = 0;     ///< wall clock only
@@ -68,8 +68,8 @@ struct Pace {
 /// periods and a full sample queue make it brake on the path and end.
 ///
 /// @param stop  set from outside (Ctrl-C): brake on the path and end
-MotionResult run_motion(Cycle& cycle, interpolator::Interpolator& interpolator,
-                        SegmentQueue& segments, SampleQueue& samples, const Limits& limits,
-                        const Pace& pace, const std::atomic<bool>& stop);
+MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, SegmentQueue& segments,
+                        SampleQueue& samples, const Limits& limits, const Pace& pace,
+                        const std::atomic<bool>& stop);
 
 }  // namespace twin::runtime

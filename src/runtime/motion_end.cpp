@@ -4,7 +4,7 @@
 
 namespace twin::runtime {
 
-std::optional<Error> describe_end(const MotionResult& motion, const trace::Sample& last,
+std::optional<Error> describe_end(const MotionResult& motion, const results::Sample& last,
                                   const hal::Machine* hal) {
   const auto at = fmt::format("at t = {:.3f} s, NC line {}", last.t, last.line);
   switch (motion.end) {
@@ -17,7 +17,7 @@ std::optional<Error> describe_end(const MotionResult& motion, const trace::Sampl
                                                    at, hal->last_error()))
           .value();
     case MotionEnd::kTripped:
-      return fail(ErrorCode::kMachine, safety::describe(*motion.trip)).value();
+      return fail(ErrorCode::kMachine, motion::describe(*motion.trip)).value();
   }
   return std::nullopt;
 }

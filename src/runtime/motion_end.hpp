@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "hal/machine.hpp"
+#include "results/trace/sample.hpp"
 #include "runtime/motion.hpp"
-#include "trace/sample.hpp"
 
 namespace twin::runtime {
 
@@ -13,7 +13,7 @@ namespace twin::runtime {
 ///
 /// @param last  what was recorded last
 /// @param hal   null: there was no machine
-std::optional<Error> describe_end(const MotionResult& motion, const trace::Sample& last,
+std::optional<Error> describe_end(const MotionResult& motion, const results::Sample& last,
                                   const hal::Machine* hal);
 
 }  // namespace twin::runtime

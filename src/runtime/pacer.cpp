@@ -51,20 +51,20 @@ double Pacer::since_deadline() const noexcept {
   return static_cast<double>(clock_.now() - intended_) * kSPerNs;
 }
 
-std::optional<safety::Trip> Pacer::overrun() const noexcept {
-  safety::Trip trip;
+std::optional<motion::Trip> Pacer::overrun() const noexcept {
+  motion::Trip trip;
   if (latency_ >= max_stall_) {
-    trip.kind = safety::Kind::kStall;
+    trip.kind = motion::Kind::kStall;
     trip.value = latency_;
     trip.limit = max_stall_;
   } else if (late_in_a_row_ >= max_in_a_row_) {
-    trip.kind = safety::Kind::kLatePeriods;
+    trip.kind = motion::Kind::kLatePeriods;
     trip.value = late_in_a_row_;
     trip.limit = max_in_a_row_;
   } else {
     return std::nullopt;
   }
-  trip.reaction = safety::reaction_to(trip.kind);
+  trip.reaction = motion::reaction_to(trip.kind);
   return trip;
 }
 

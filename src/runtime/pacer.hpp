@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/realtime_settings.hpp"
+#include "motion/safety/trip.hpp"
 #include "runtime/clock.hpp"
-#include "safety/trip.hpp"
 
 namespace twin::runtime {
 
@@ -39,7 +39,7 @@ class Pacer {
   double since_deadline() const noexcept;
 
   /// Too many late periods in a row, or one too late, as of the last wait(). Real-time safe.
-  std::optional<safety::Trip> overrun() const noexcept;
+  std::optional<motion::Trip> overrun() const noexcept;
 
   std::int64_t late_periods() const noexcept { return late_periods_; }
   double worst_latency() const noexcept { return worst_latency_; }  ///< [s]

@@ -13,7 +13,7 @@ namespace twin::runtime {
 namespace {
 
 /// Non-empty spans of a curve.
-std::int64_t count_spans(const nurbs::Curve& curve) {
+std::int64_t count_spans(const geometry::Curve& curve) {
   const std::vector<double>& knots = curve.knots();
   return std::transform_reduce(knots.begin() + 1, knots.end(), knots.begin(), std::int64_t{0},
                                std::plus<>(),
@@ -80,8 +80,8 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
   return figures;
 }
 
-void put_into(metrics::Summary& summary, const PlanFigures& figures, bool is_certified) {
-  const metrics::Running& lengths = figures.short_length;
+void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified) {
+  const results::Running& lengths = figures.short_length;
   summary.blocks = {figures.blocks, lengths.count(), lengths.min(), lengths.mean(), lengths.max()};
   summary.segments = {figures.curves + figures.lines + figures.arcs, figures.curves, figures.lines,
                       figures.arcs};

@@ -6,15 +6,15 @@
 #include "core/error.hpp"
 #include "feedrate/planned_segment.hpp"
 #include "gcode/reader.hpp"
-#include "metrics/running.hpp"
-#include "metrics/summary.hpp"
+#include "results/metrics/running.hpp"
+#include "results/metrics/summary.hpp"
 
 namespace twin::runtime {
 
 /// What planning counts on its way.
 struct PlanFigures {
   std::int64_t blocks = 0;        ///< blocks of the program that move
-  metrics::Running short_length;  ///< lengths of the continuous short blocks, fitted by curves [mm]
+  results::Running short_length;  ///< lengths of the continuous short blocks, fitted by curves [mm]
   std::int64_t curves = 0;        ///< fitted, and NURBS of the program or parts of them
   std::int64_t fitted_curves = 0;  ///< of them, through continuous short blocks
   std::int64_t spans = 0;          ///< of the fitted curves
@@ -41,6 +41,6 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
 /// The figures of a plan where the summary has them.
 ///
 /// @param is_certified  the deviation is a certified one, twin::is_certified()
-void put_into(metrics::Summary& summary, const PlanFigures& figures, bool is_certified);
+void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified);
 
 }  // namespace twin::runtime

@@ -10,13 +10,13 @@ namespace twin::runtime {
 Expected<double> time_bound(const std::filesystem::path& program,
                             const config::MachineFile& machine,
                             const std::optional<double>& feedrate,
-                            bound::TimeBound::Profile profile) {
+                            feedrate::TimeBound::Profile profile) {
   auto reader = gcode::Reader::open(program.string(), {.feedrate = feedrate});
   if (!reader) {
     return tl::unexpected(reader.error());
   }
-  bound::TimeBound bound(machine.limits, machine.planning, machine.path, machine.period,
-                         std::move(profile));
+  feedrate::TimeBound bound(machine.limits, machine.planning, machine.path, machine.period,
+                            std::move(profile));
   auto figures = plan_program(*reader, machine, [&](feedrate::PlannedSegment&& planned) {
     bound.add(planned);
     return true;

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <optional>
 
-#include "bound/time_bound.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "feedrate/bound/time_bound.hpp"
 
 namespace twin::runtime {
 
-/// Plans a program and bounds the time of its path from below, see bound::TimeBound.
+/// Plans a program and bounds the time of its path from below, see feedrate::TimeBound.
 ///
 /// @param feedrate  replaces the program's F words [mm/s]
 /// @param profile   if given, gets the bound's feedrate along the path
@@ -17,6 +17,6 @@ namespace twin::runtime {
 Expected<double> time_bound(const std::filesystem::path& program,
                             const config::MachineFile& machine,
                             const std::optional<double>& feedrate,
-                            bound::TimeBound::Profile profile = {});
+                            feedrate::TimeBound::Profile profile = {});
 
 }  // namespace twin::runtime

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "gcode/programmed_curve.hpp"
-#include "metrics/block_distance.hpp"
+#include "results/metrics/block_distance.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -22,10 +22,10 @@ void include(const Vec3& point, Vec3& low, Vec3& high) {
 /// A curve reaches furthest along an axis where C' has no part along it; its samples stand close
 /// enough that one such place at most is between two of them.
 void include_curve(const gcode::ProgrammedCurve& programmed, Vec3& low, Vec3& high) {
-  const nurbs::Curve& curve = programmed.curve;
-  nurbs::Derivatives before = curve.derivatives(programmed.samples.front().u);
+  const geometry::Curve& curve = programmed.curve;
+  geometry::Derivatives before = curve.derivatives(programmed.samples.front().u);
   for (std::size_t i = 1; i < programmed.samples.size(); ++i) {
-    const nurbs::Derivatives here = curve.derivatives(programmed.samples[i].u);
+    const geometry::Derivatives here = curve.derivatives(programmed.samples[i].u);
     include(here.position, low, high);
     for (int axis = 0; axis < 3; ++axis) {
       if (before.first[axis] * here.first[axis] < 0.0) {
@@ -59,7 +59,7 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
     for (int half_turn = -1; half_turn <= 3; ++half_turn) {
       const double angle = first + half_turn * std::numbers::pi;
       if (angle > 0.0 && angle < arc.sweep) {
-        include(metrics::point_at(block, angle / arc.sweep), low, high);
+        include(results::point_at(block, angle / arc.sweep), low, high);
       }
     }
   }
@@ -109,7 +109,7 @@ Expected<ProgramFigures> check_program(const std::filesystem::path& program,
     }
     if ((*block)->motion != gcode::Motion::kDwell) {
       ++figures.blocks;
-      figures.length += metrics::block_length(**block, metrics::View::kSpace);
+      figures.length += results::block_length(**block, results::View::kSpace);
     }
   }
   figures.lines = reader->line();

@@ -8,11 +8,10 @@
 namespace twin::runtime {
 namespace {
 
-constexpr double kLeadInPeriods = 8.0;   // at the largest feedrate, for corners just behind
-constexpr double kLevel = 1e-6;          // share of A_max that is no acceleration
-constexpr double kPlaceRounding = 1e-6;  // from a segment's end [mm]
-constexpr int kTries = 20;               // places looked at for one request
-constexpr double kStride = 0.005;        // between them [s]
+constexpr double kLeadInPeriods = 8.0;  // at the largest feedrate, for corners just behind
+constexpr double kLevel = 1e-6;         // share of A_max that is no acceleration
+constexpr int kTries = 20;              // places looked at for one request
+constexpr double kStride = 0.005;       // between them [s]
 
 void nap(int microseconds) { std::this_thread::sleep_for(std::chrono::microseconds(microseconds)); }
 
@@ -142,7 +141,7 @@ ProgramPlanner::Start ProgramPlanner::start_at(std::int64_t segment, double s, d
 Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_at_rest(
     const ReplanRequest& request) {
   auto [segment, phase, time, s] = request.from;
-  if (s > path_[segment].length - kPlaceRounding && path_[segment].length > 0.0) {
+  if (s > path_[segment].length - kSegmentEnd && path_[segment].length > 0.0) {
     ++segment;
     s = 0.0;
   }
@@ -253,7 +252,7 @@ Expected<void> ProgramPlanner::serve() {
 }
 
 /// The candidate is the plan to hand on, after the rest of the present one up to the switch.
-void ProgramPlanner::put_into_force(const interpolator::PlanSwitch& at, bool is_at_rest) {
+void ProgramPlanner::put_into_force(const motion::PlanSwitch& at, bool is_at_rest) {
   auto& ready = active_->ready();
   if (is_at_rest) {
     older_.clear();

@@ -52,7 +52,7 @@ class ProgramPlanner {
  private:
   struct Start {
     PlanStart plan;
-    interpolator::PlanSwitch at;
+    motion::PlanSwitch at;
     double distance = 0.0;  // from the path's start [mm]
     double after = 0.0;     // time of motion until there [s]
   };
@@ -67,7 +67,7 @@ class ProgramPlanner {
   Expected<std::optional<Start>> start_at_rest(const ReplanRequest& request);
   Expected<std::optional<Start>> start_ahead(const ReplanRequest& request);
   Expected<bool> make_candidate(const Start& start);
-  void put_into_force(const interpolator::PlanSwitch& at, bool is_at_rest);
+  void put_into_force(const motion::PlanSwitch& at, bool is_at_rest);
 
   gcode::Reader& reader_;
   const config::MachineFile& machine_;

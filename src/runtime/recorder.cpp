@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/atomic_file.hpp"
-#include "trace/columns.hpp"
+#include "results/trace/columns.hpp"
 
 namespace twin::runtime {
 
@@ -14,26 +14,26 @@ Expected<Recorder> Recorder::create(const Options& options) {
   if (!reader) {
     return tl::unexpected(reader.error());
   }
-  auto trace = trace::CsvWriter::create(
-      options.directory, options.has_machine ? trace::Layout::kRun : trace::Layout::kPlan);
+  auto trace = results::CsvWriter::create(
+      options.directory, options.has_machine ? results::Layout::kRun : results::Layout::kPlan);
   if (!trace) {
     return tl::unexpected(trace.error());
   }
-  auto limit = trace::LimitWriter::create(options.directory / "plots");
+  auto limit = results::LimitWriter::create(options.directory / "plots");
   if (!limit) {
     return tl::unexpected(limit.error());
   }
   return Recorder(options, std::move(*reader), std::move(*trace), std::move(*limit));
 }
 
-Recorder::Recorder(const Options& options, gcode::Reader&& reader, trace::CsvWriter&& trace,
-                   trace::LimitWriter&& limit)
+Recorder::Recorder(const Options& options, gcode::Reader&& reader, results::CsvWriter&& trace,
+                   results::LimitWriter&& limit)
     : options_(options),
       reader_(std::move(reader)),
       trace_(std::move(trace)),
       limit_(std::move(limit)),
-      in_space_(metrics::View::kSpace),
-      along_z_(metrics::View::kAlongZ),
+      in_space_(results::View::kSpace),
+      along_z_(results::View::kAlongZ),
       fluctuation_(options.period),
       audit_(options.period, options.limits) {}
 
@@ -59,7 +59,7 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
   return {};
 }
 
-Expected<void> Recorder::take(const trace::Sample& sample) {
+Expected<void> Recorder::take(const results::Sample& sample) {
   if (auto ready = read_ahead(sample.block); !ready) {
     return ready;
   }
@@ -92,9 +92,9 @@ Expected<void> Recorder::take(const trace::Sample& sample) {
   return trace_.write(sample, contour_error);
 }
 
-void Recorder::summarise(metrics::Summary& summary) {
-  const auto figures = [](const metrics::Running& error) {
-    return metrics::ErrorFigures{error.max(), error.rms()};
+void Recorder::summarise(results::Summary& summary) {
+  const auto figures = [](const results::Running& error) {
+    return results::ErrorFigures{error.max(), error.rms()};
   };
   summary.command_contour_error = figures(command_error_);
   summary.feedrate_fluctuation = {fluctuation_.shares().max(), fluctuation_.shares().rms()};
@@ -102,7 +102,7 @@ void Recorder::summarise(metrics::Summary& summary) {
   if (!options_.has_machine) {
     return;
   }
-  metrics::MachineFigures run;
+  results::MachineFigures run;
   run.machining_time = last_.t;
   run.contour_error = figures(contour_error_);
   run.table_contour_error = figures(table_error_);
@@ -115,7 +115,7 @@ void Recorder::summarise(metrics::Summary& summary) {
 }
 
 Expected<void> Recorder::commit() {
-  const auto timing = options_.directory / "plots" / trace::kTimingName;
+  const auto timing = options_.directory / "plots" / results::kTimingName;
   if (options_.has_machine && options_.is_wall_clock) {
     if (auto written = write_whole_file(timing, timing_.to_csv()); !written) {
       return written;

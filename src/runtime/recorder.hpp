@@ -9,15 +9,15 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "gcode/reader.hpp"
-#include "metrics/contour_tracker.hpp"
-#include "metrics/feedrate_fluctuation.hpp"
-#include "metrics/limit_audit.hpp"
-#include "metrics/log_histogram.hpp"
-#include "metrics/running.hpp"
-#include "metrics/summary.hpp"
+#include "results/metrics/contour_tracker.hpp"
+#include "results/metrics/feedrate_fluctuation.hpp"
+#include "results/metrics/limit_audit.hpp"
+#include "results/metrics/log_histogram.hpp"
+#include "results/metrics/running.hpp"
+#include "results/metrics/summary.hpp"
+#include "results/trace/csv_writer.hpp"
+#include "results/trace/limit_writer.hpp"
 #include "runtime/cycle_timing.hpp"
-#include "trace/csv_writer.hpp"
-#include "trace/limit_writer.hpp"
 
 namespace twin::runtime {
 
@@ -40,41 +40,41 @@ class Recorder {
   static Expected<Recorder> create(const Options& options);
 
   /// Takes the next sample.
-  Expected<void> take(const trace::Sample& sample);
+  Expected<void> take(const results::Sample& sample);
 
   /// Puts the figures of the samples so far into a summary.
-  void summarise(metrics::Summary& summary);
+  void summarise(results::Summary& summary);
 
   /// Gives the files their names, or leaves them named as partial.
   Expected<void> commit();
   void abandon() noexcept;
 
   std::int64_t samples() const noexcept { return samples_; }
-  const trace::Sample& last() const noexcept { return last_; }
+  const results::Sample& last() const noexcept { return last_; }
 
  private:
-  Recorder(const Options& options, gcode::Reader&& reader, trace::CsvWriter&& trace,
-           trace::LimitWriter&& limit);
+  Recorder(const Options& options, gcode::Reader&& reader, results::CsvWriter&& trace,
+           results::LimitWriter&& limit);
 
   Expected<void> read_ahead(std::int64_t block);
 
   Options options_;
   gcode::Reader reader_;
   bool program_ended_ = false;
-  trace::CsvWriter trace_;
-  trace::LimitWriter limit_;
-  metrics::ContourTracker in_space_;
-  metrics::ContourTracker along_z_;
-  metrics::FeedrateFluctuation fluctuation_;
-  metrics::LimitAudit audit_;
-  metrics::Running command_error_;
-  metrics::Running contour_error_;
-  metrics::Running table_error_;
-  std::array<metrics::Running, 2> tracking_error_;
-  metrics::LogHistogram cycle_time_;
+  results::CsvWriter trace_;
+  results::LimitWriter limit_;
+  results::ContourTracker in_space_;
+  results::ContourTracker along_z_;
+  results::FeedrateFluctuation fluctuation_;
+  results::LimitAudit audit_;
+  results::Running command_error_;
+  results::Running contour_error_;
+  results::Running table_error_;
+  std::array<results::Running, 2> tracking_error_;
+  results::LogHistogram cycle_time_;
   CycleTiming timing_;
   std::int64_t samples_ = 0;
-  trace::Sample last_{};
+  results::Sample last_{};
 };
 
 }  // namespace twin::runtime

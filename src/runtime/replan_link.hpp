@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <optional>
 
-#include "interpolator/interpolator.hpp"
+#include "motion/interpolator/interpolator.hpp"
 
 namespace twin::runtime {
 
 /// What the motion thread asks the planning thread for: another plan of the rest of the path.
 struct ReplanRequest {
-  interpolator::PlanPlace from;  ///< where the motion is
-  bool is_at_rest = false;       ///< it starts there; else at a place ahead
-  double margin = 0.0;           ///< time of motion from there to that place, at least [s]
-  double percent = 100.0;        ///< feed override, > 0 [%]
+  motion::PlanPlace from;   ///< where the motion is
+  bool is_at_rest = false;  ///< it starts there; else at a place ahead
+  double margin = 0.0;      ///< time of motion from there to that place, at least [s]
+  double percent = 100.0;   ///< feed override, > 0 [%]
 };
 
 /// What the planning thread answers.
@@ -24,8 +24,8 @@ struct ReplanOffer {
     kOnlyRest,  ///< no place ahead suits: brake first
   };
   Kind kind = Kind::kPlan;
-  interpolator::PlanSwitch at;  ///< at rest only its plan means anything
-  double distance = 0.0;        ///< of this place from the path's start [mm]
+  motion::PlanSwitch at;  ///< at rest only its plan means anything
+  double distance = 0.0;  ///< of this place from the path's start [mm]
 };
 
 /// One request at a time from the motion thread to the planning thread, its answer, and whether it

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hal/active_machine.hpp"
+#include "motion/safety/trip.hpp"
 #include "runtime/cycle_time.hpp"
 #include "runtime/feed_control.hpp"
 #include "runtime/motion.hpp"
@@ -18,7 +19,6 @@
 #include "runtime/recorder.hpp"
 #include "runtime/run_options.hpp"
 #include "runtime/thrown.hpp"
-#include "safety/trip.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -56,12 +56,12 @@ class Run {
   void guarded_plan(gcode::Reader& reader) noexcept;
   void move();
   void guarded_move() noexcept;
-  void take(const trace::Sample& sample);
+  void take(const results::Sample& sample);
   void record();
   void run_threads(gcode::Reader& reader);
   std::optional<Error> failure() const;
   void report_progress();
-  metrics::Summary summarise(double wall_time);
+  results::Summary summarise(double wall_time);
 
   const RunRequest& request_;
   const ProgramFigures& program_;
@@ -69,7 +69,7 @@ class Run {
   bool has_control_;  // the path may be planned again while it is followed
   SegmentQueue segments_;
   SampleQueue samples_;
-  interpolator::Interpolator interpolator_;
+  motion::Interpolator interpolator_;
   Cycle cycle_;
   ReplanLink link_;
   OperatorPanel own_panel_;
@@ -139,7 +139,7 @@ void Run::guarded_move() noexcept {
 }
 
 /// Records a sample; after an error drops it, so that the machine can brake.
-void Run::take(const trace::Sample& sample) {
+void Run::take(const results::Sample& sample) {
   if (record_error_) {
     return;
   }
@@ -151,7 +151,7 @@ void Run::take(const trace::Sample& sample) {
 
 /// Drains the samples until the motion has ended. Nothing escapes: what throws brakes the machine.
 void Run::record() {
-  trace::Sample sample;
+  results::Sample sample;
   for (;;) {
     const bool has_ended = has_ended_.load(std::memory_order_acquire);
     bool is_empty = true;
@@ -192,7 +192,7 @@ void Run::report_progress() {
 std::optional<Error> Run::failure() const {
   // What switched the machine off is said before what only braked it.
   const bool was_switched_off =
-      motion_.trip && motion_.trip->reaction == safety::Reaction::kImmediate;
+      motion_.trip && motion_.trip->reaction == motion::Reaction::kImmediate;
   for (const auto& error : {move_error_, record_error_, plan_error_}) {
     if (error && !was_switched_off) {
       return error;
@@ -201,8 +201,8 @@ std::optional<Error> Run::failure() const {
   return describe_end(motion_, recorder_.last(), request_.hal);
 }
 
-metrics::Summary Run::summarise(double wall_time) {
-  metrics::Summary summary;
+results::Summary Run::summarise(double wall_time) {
+  results::Summary summary;
   summary.program = request_.program.filename().string();
   summary.machine = request_.machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;

@@ -11,11 +11,11 @@
 #include "core/error.hpp"
 #include "core/vec.hpp"
 #include "hal/machine.hpp"
-#include "metrics/summary.hpp"
+#include "motion/safety/trip.hpp"
+#include "results/metrics/summary.hpp"
 #include "runtime/hooks.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
-#include "safety/trip.hpp"
 
 namespace twin::runtime {
 
@@ -38,10 +38,10 @@ struct RunRequest {
 
 /// How far a run got.
 struct RunResult {
-  metrics::Summary summary;
+  results::Summary summary;
   std::optional<Error>
       failure;  ///< why it ended early; what was recorded is kept, named as partial
-  std::optional<safety::Trip> trip;  ///< where a monitor was the reason
+  std::optional<motion::Trip> trip;  ///< where a monitor was the reason
   std::optional<Vec2> met_at;        ///< measured, where `until` came true [mm]
   Vec2 rest_at = Vec2::Zero();       ///< measured when the machine was switched off [mm]
 };

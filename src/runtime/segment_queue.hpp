@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "feedrate/planned_segment.hpp"
-#include "interpolator/interpolator.hpp"
+#include "motion/interpolator/interpolator.hpp"
 
 namespace twin::runtime {
 
@@ -20,7 +20,7 @@ namespace twin::runtime {
 ///
 /// Where another plan takes over, its segments come after those of the plan before; what is left of
 /// that one is passed over by adopt(). How far a plan reaches is known for the two latest ones.
-class SegmentQueue final : public interpolator::SegmentSource {
+class SegmentQueue final : public motion::SegmentSource {
  public:
   /// @param capacity  segments of a plan that wait in it
   /// @param spare     room for those of the next plan while they do

@@ -6,8 +6,7 @@
 namespace twin::runtime {
 namespace {
 
-constexpr double kPlaceRounding = 1e-6;  // from a segment's end [mm]
-constexpr double kRest = 1e-9;           // feedrate that is none [mm/s]
+constexpr double kRest = 1e-9;  // feedrate that is none [mm/s]
 
 /// Time into a phase, from `low` on, at which there is no acceleration.
 std::optional<double> level_time(const feedrate::Phase& phase, double low, double tolerance) {
@@ -28,7 +27,7 @@ std::optional<double> level_time(const feedrate::Phase& phase, double low, doubl
 }  // namespace
 
 std::optional<SwitchPlace> find_switch_place(const std::deque<SegmentPhases>& plan,
-                                             const interpolator::PlanPlace& from, double margin,
+                                             const motion::PlanPlace& from, double margin,
                                              double tolerance) {
   double passed = 0.0;  // since `from`
   for (const SegmentPhases& segment : plan) {
@@ -47,7 +46,7 @@ std::optional<SwitchPlace> find_switch_place(const std::deque<SegmentPhases>& pl
         const feedrate::PathMotion m = feedrate::motion_at(phase, *t);
         const bool is_at_end = is_rest || (i + 1 == count && *t == phase.duration);
         const double v = m.v > kRest ? m.v : 0.0;
-        if (is_at_end || m.s < segment.length - kPlaceRounding) {
+        if (is_at_end || m.s < segment.length - kSegmentEnd) {
           return SwitchPlace{segment.index, i, *t, is_at_end, m.s, v, passed + *t - begin};
         }
       }

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "feedrate/phase.hpp"
-#include "interpolator/interpolator.hpp"
+#include "feedrate/profile/phase.hpp"
+#include "motion/interpolator/interpolator.hpp"
 
 namespace twin::runtime {
 
@@ -16,6 +16,9 @@ struct SegmentPhases {
   double length = 0.0;     ///< of the segment [mm]
   std::vector<feedrate::Phase> phases;
 };
+
+/// A place this close to a segment's end is its end [mm].
+inline constexpr double kSegmentEnd = 1e-6;
 
 /// A place of a plan without tangential acceleration, where another plan may go on.
 struct SwitchPlace {
@@ -38,7 +41,7 @@ struct SwitchPlace {
 /// @param tolerance  of a tangential acceleration that is none [mm/s^2]
 /// @returns nothing where the plan known so far has no such place
 std::optional<SwitchPlace> find_switch_place(const std::deque<SegmentPhases>& plan,
-                                             const interpolator::PlanPlace& from, double margin,
+                                             const motion::PlanPlace& from, double margin,
                                              double tolerance);
 
 }  // namespace twin::runtime

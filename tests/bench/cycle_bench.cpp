@@ -25,7 +25,7 @@ namespace twin::runtime {
 namespace {
 
 /// Hands out the same planned segments over and over.
-class LoopingSource final : public interpolator::SegmentSource {
+class LoopingSource final : public motion::SegmentSource {
  public:
   explicit LoopingSource(std::vector<feedrate::PlannedSegment>&& plan) : plan_(std::move(plan)) {}
   const feedrate::PlannedSegment* next() noexcept override {
@@ -88,8 +88,8 @@ std::vector<feedrate::PlannedSegment> plan_of_circle() {
 /// Interpolator alone, on curves of 20 blocks.
 void interpolate(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
-  interpolator::Interpolator interpolator(source, 0.001);
-  interpolator::SetPoint set_point;
+  motion::Interpolator interpolator(source, 0.001);
+  motion::SetPoint set_point;
   for (auto _ : state) {
     benchmark::DoNotOptimize(interpolator.step(set_point));
     benchmark::DoNotOptimize(set_point);
@@ -99,14 +99,14 @@ void interpolate(benchmark::State& state) {
 /// Interpolator and servo of both axes: the whole cycle but for the machine.
 void interpolate_and_servo(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
-  interpolator::Interpolator interpolator(source, 0.001);
+  motion::Interpolator interpolator(source, 0.001);
   hal::IdealMachine machine;
   if (!machine.configure(0.001) || !machine.activate()) {
     state.SkipWithError("no machine");
     return;
   }
   Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001);
-  trace::Sample sample;
+  results::Sample sample;
   for (auto _ : state) {
     benchmark::DoNotOptimize(cycle.prepare());
     benchmark::DoNotOptimize(cycle.exchange(sample));
@@ -117,10 +117,10 @@ void interpolate_and_servo(benchmark::State& state) {
 /// The same with the monitors of both axes.
 void interpolate_servo_and_monitors(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
-  interpolator::Interpolator interpolator(source, 0.001);
+  motion::Interpolator interpolator(source, 0.001);
   PerfectTable machine;
   Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001);
-  trace::Sample sample;
+  results::Sample sample;
   for (auto _ : state) {
     cycle.prepare();
     if (cycle.exchange(sample) != hal::Status::kOk) {
@@ -135,7 +135,7 @@ void interpolate_servo_and_monitors(benchmark::State& state) {
 /// interpolate, servo, monitors, digital outputs, two converters. What is left out is the bus.
 void whole_period_on_the_rig(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
-  interpolator::Interpolator interpolator(source, 0.001);
+  motion::Interpolator interpolator(source, 0.001);
   namespace rig = hal::rig;
   rig::BoardRegisters boards;
   rig::power_on(boards, 0, 0);
@@ -151,10 +151,10 @@ void whole_period_on_the_rig(benchmark::State& state) {
     state.SkipWithError("no machine");
     return;
   }
-  safety::Settings blind;  // the table does not follow
+  motion::SafetySettings blind;  // the table does not follow
   blind.tracking_error = blind.runaway = blind.frozen_encoder = blind.saturation_time = 1e12;
   Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001, blind);
-  trace::Sample sample;
+  results::Sample sample;
   if (!machine.activate() || cycle.hold() != hal::Status::kOk) {
     state.SkipWithError("no machine");
     return;
@@ -172,7 +172,7 @@ void whole_period_on_the_rig(benchmark::State& state) {
 /// With the simulated table: ten physics steps of 0.1 ms a period.
 void whole_period_on_the_table(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
-  interpolator::Interpolator interpolator(source, 0.001);
+  motion::Interpolator interpolator(source, 0.001);
   hal::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
   hal::MujocoMachine machine(params);
@@ -181,7 +181,7 @@ void whole_period_on_the_table(benchmark::State& state) {
     return;
   }
   Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001);
-  trace::Sample sample;
+  results::Sample sample;
   for (auto _ : state) {
     cycle.prepare();
     if (cycle.exchange(sample) != hal::Status::kOk) {

@@ -3,12 +3,12 @@
 #include <string>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "identify/axis_model.hpp"
-#include "identify/set_points.hpp"
 #include "runtime/cycle.hpp"
+#include "studies/identify/axis_model.hpp"
+#include "studies/identify/set_points.hpp"
 
 /// Cost of a simulated physics step: one axis without MuJoCo, beside the whole table with it.
-namespace twin::identify {
+namespace twin::studies::identify {
 namespace {
 
 constexpr int kSteps = 10;  // physics steps in a period
@@ -18,16 +18,16 @@ config::MachineFile machine_file() {
       .value_or(config::MachineFile());
 }
 
-std::vector<interpolator::SetPoint> set_points(const config::MachineFile& machine) {
+std::vector<motion::SetPoint> set_points(const config::MachineFile& machine) {
   return plan_set_points(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc", machine)
-      .value_or(std::vector<interpolator::SetPoint>());
+      .value_or(std::vector<motion::SetPoint>());
 }
 
 void plain_axis(benchmark::State& state) {
   const config::MachineFile machine = machine_file();
   const auto axis = static_cast<hal::Axis>(state.range(0));
-  std::vector<servo::Reference> references;
-  for (const interpolator::SetPoint& point : set_points(machine)) {
+  std::vector<motion::Reference> references;
+  for (const motion::SetPoint& point : set_points(machine)) {
     const auto i = static_cast<Eigen::Index>(axis);
     references.push_back({point.position[i], point.velocity[i], point.acceleration[i]});
   }
@@ -42,9 +42,10 @@ void plain_axis(benchmark::State& state) {
 /// Both axes; an item is one axis's step, as above.
 void mujoco_table(benchmark::State& state) {
   const config::MachineFile machine = machine_file();
-  const std::vector<interpolator::SetPoint> points = set_points(machine);
-  std::array<servo::AxisServo, 2> servos{servo::AxisServo{machine.servo[0], 83.0, machine.period},
-                                         servo::AxisServo{machine.servo[1], 83.0, machine.period}};
+  const std::vector<motion::SetPoint> points = set_points(machine);
+  std::array<motion::AxisServo, 2> servos{
+      motion::AxisServo{machine.servo[0], 83.0, machine.period},
+      motion::AxisServo{machine.servo[1], 83.0, machine.period}};
   for (auto _ : state) {
     hal::MujocoMachine table(machine.table);
     if (!table.configure(machine.period) || !table.activate()) {
@@ -54,7 +55,7 @@ void mujoco_table(benchmark::State& state) {
     hal::Inputs inputs;
     hal::Outputs outputs;
     outputs.servo_on = {true, true};
-    for (const interpolator::SetPoint& point : points) {
+    for (const motion::SetPoint& point : points) {
       table.read(inputs);
       for (std::size_t a = 0; a < 2; ++a) {
         const auto i = static_cast<Eigen::Index>(a);
@@ -73,4 +74,4 @@ BENCHMARK(plain_axis)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(mujoco_table)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace twin::identify
+}  // namespace twin::studies::identify

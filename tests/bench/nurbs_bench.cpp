@@ -3,13 +3,13 @@
 #include <cmath>
 #include <vector>
 
-#include "nurbs/arc_length.hpp"
-#include "nurbs/circle.hpp"
-#include "nurbs/deviation.hpp"
-#include "nurbs/fit.hpp"
+#include "geometry/nurbs/arc_length.hpp"
+#include "geometry/nurbs/circle.hpp"
+#include "geometry/nurbs/deviation.hpp"
+#include "geometry/nurbs/fit.hpp"
 
 /// Costs of what planning does to one curve of 20 blocks, and of the interpolator's evaluations.
-namespace twin::nurbs {
+namespace twin::geometry {
 namespace {
 
 constexpr int kBlocks = 20;
@@ -141,4 +141,4 @@ void parameter_at_arc_length(benchmark::State& state) {
 BENCHMARK(parameter_at_arc_length);
 
 }  // namespace
-}  // namespace twin::nurbs
+}  // namespace twin::geometry

@@ -2,7 +2,7 @@
 
 // Machine files and models that cannot be used.
 namespace twin::cli {
-namespace {
+namespace bad_machine_test {
 
 class BadMachine : public test::CliTest {
  protected:
@@ -60,5 +60,5 @@ TEST_F(BadMachine, ModelIsNoTable) {
                  "empty.xml: the model has no joint named \"x\"");
 }
 
-}  // namespace
+}  // namespace bad_machine_test
 }  // namespace twin::cli

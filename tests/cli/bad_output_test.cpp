@@ -4,7 +4,7 @@
 
 // Results that cannot be written.
 namespace twin::cli {
-namespace {
+namespace bad_output_test {
 
 class BadOutput : public test::CliTest {
  protected:
@@ -66,5 +66,5 @@ TEST_F(BadOutput, OlderResultsStayWholeWhenARunFails) {
   EXPECT_EQ(std::filesystem::file_size(folder / "out/trace.csv"), before);
 }
 
-}  // namespace
+}  // namespace bad_output_test
 }  // namespace twin::cli

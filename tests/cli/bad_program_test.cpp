@@ -4,7 +4,7 @@
 
 // Programs that cannot be run: one line with file and line, exit status 1, nothing moved.
 namespace twin::cli {
-namespace {
+namespace bad_program_test {
 
 class BadProgram : public test::CliTest {
  protected:
@@ -98,5 +98,5 @@ TEST_F(BadProgram, ErrorBehindALongSoundPartIsFoundBeforeAnythingMoves) {
   expect_refused(text + "X3 Q\n", "bad.nc:20002", "Q");
 }
 
-}  // namespace
+}  // namespace bad_program_test
 }  // namespace twin::cli

@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "tests/cli/cli_fixture.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::cli {
-namespace {
+namespace circle_test {
 
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
@@ -167,5 +167,5 @@ TEST_F(CircleCommand, WithTooFewSetPointsSaysWhatToDo) {
   EXPECT_FALSE(exists("out/circle.json"));
 }
 
-}  // namespace
+}  // namespace circle_test
 }  // namespace twin::cli

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/child.hpp"
-#include "tests/runtime/temp_folder.hpp"
+#include "tests/support/child.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::test {
 

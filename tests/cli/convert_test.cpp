@@ -5,7 +5,7 @@
 #include "tests/cli/cli_fixture.hpp"
 
 namespace twin::cli {
-namespace {
+namespace convert_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -94,5 +94,5 @@ TEST_F(Convert, ToleranceOfTheMachineFileCounts) {
   EXPECT_THAT(narrow.out, HasSubstr("um of 0.5 um"));
 }
 
-}  // namespace
+}  // namespace convert_test
 }  // namespace twin::cli

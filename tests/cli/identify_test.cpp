@@ -4,7 +4,7 @@
 #include "cli_fixture.hpp"
 
 namespace twin::test {
-namespace {
+namespace identify_test {
 
 /// One row of a recording made up for a test, in mm and s.
 struct Row {
@@ -140,5 +140,5 @@ TEST_F(IdentifyTest, AForeignRecordingOfOneAxisGivesAMachineFileThatPlans) {
             0);
 }
 
-}  // namespace
+}  // namespace identify_test
 }  // namespace twin::test

@@ -6,11 +6,11 @@
 #include "core/limits.hpp"
 #include "tests/cli/cli_fixture.hpp"
 #include "tests/runtime/trace_rows.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 // Ctrl-C brakes on the path, stops the machine and keeps what was recorded.
 namespace twin::cli {
-namespace {
+namespace interrupt_test {
 
 class Interrupt : public test::CliTest, public ::testing::WithParamInterface<int> {
  protected:
@@ -90,5 +90,5 @@ TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptTwice, ::testing::Values(SIGINT));
 
-}  // namespace
+}  // namespace interrupt_test
 }  // namespace twin::cli

@@ -13,10 +13,10 @@
 #include "core/limits.hpp"
 #include "tests/cli/cli_fixture.hpp"
 #include "tests/runtime/trace_rows.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::cli {
-namespace {
+namespace override_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -119,5 +119,5 @@ TEST_F(OverrideCli, TheControlSocketHoldsAndGoesOnWhileItMoves) {
   EXPECT_EQ(overrides[1]["percent"], 200.0);
 }
 
-}  // namespace
+}  // namespace override_test
 }  // namespace twin::cli

@@ -4,11 +4,11 @@
 
 #include "tests/cli/cli_fixture.hpp"
 #include "tests/runtime/trace_rows.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 // trace.csv and summary.json are read by other programs: names, order and units are an interface.
 namespace twin::cli {
-namespace {
+namespace results_test {
 
 using Json = nlohmann::ordered_json;
 using test::content;
@@ -178,5 +178,5 @@ TEST_F(Results, FileThatIsNotWantedAnyMoreGoes) {
   EXPECT_TRUE(exists("out/trace.csv"));
 }
 
-}  // namespace
+}  // namespace results_test
 }  // namespace twin::cli

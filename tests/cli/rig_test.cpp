@@ -1,13 +1,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.hpp"
-#include "tests/hal_rig/sysfs_tree.hpp"
+#include "tests/hal/rig/sysfs_tree.hpp"
 #include "tests/runtime/trace_rows.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 // The switch --hal rig and the commands of `twin rig`, on emulated boards.
 namespace twin::cli {
-namespace {
+namespace rig_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -173,5 +173,5 @@ TEST_F(Rig, UnknownCommandIsBadUsage) {
   expect_refusal(twin({"rig", "probe", "--moter"}), 2, "unknown option --moter");
 }
 
-}  // namespace
+}  // namespace rig_test
 }  // namespace twin::cli

@@ -1,7 +1,7 @@
 #include "tests/cli/cli_fixture.hpp"
 
 namespace twin::cli {
-namespace {
+namespace usage_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -92,5 +92,5 @@ TEST_F(Usage, RenderNeedsTheFolderOfARun) {
   EXPECT_THAT(result.err, HasSubstr("is not the summary of a run"));
 }
 
-}  // namespace
+}  // namespace usage_test
 }  // namespace twin::cli

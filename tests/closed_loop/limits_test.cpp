@@ -1,13 +1,13 @@
 #include <cmath>
 #include <ostream>
 
-#include "metrics/limit_audit.hpp"
+#include "results/metrics/limit_audit.hpp"
 #include "tests/closed_loop/loop_fixture.hpp"
 #include "tests/runtime/trace_rows.hpp"
 
 // Set points of every program of nc_programs against the machine's limits, from differences alone.
 namespace twin {
-namespace {
+namespace limits_test {
 
 // What differences may be off: across a corner between two set points nobody can tell how long the
 // way was. With more corners or shorter periods it is more.
@@ -34,7 +34,7 @@ TEST_P(ProgramLimits, FeedrateAccelerationAndJerkAreKept) {
   file.period = GetParam().period;
   file.path.curves = GetParam().curves;
   file.planning.acceleration_profile = GetParam().profile;
-  const metrics::Summary summary =
+  const results::Summary summary =
       execute(program(GetParam().program), file, nullptr, std::nullopt);
   const Limits& limits = file.limits;
   const bool has_rapids = std::string(GetParam().program) == "mixed.nc";
@@ -81,5 +81,5 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"mixed.nc", CurveKind::kNurbs, 1e-3, kDoubt, AccelerationProfile::kFir},
         Case{"square.nc", CurveKind::kNurbs, 0.125e-3, kMoreDoubt}));
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace twin

@@ -9,7 +9,7 @@
 #include "config/machine_file.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
-#include "tests/runtime/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::test {
 
@@ -26,18 +26,18 @@ class LoopTest : public ::testing::Test {
     return std::string(TWIN_SOURCE_DIR "/nc_programs/") + name;
   }
 
-  metrics::Summary plan(const std::filesystem::path& nc,
+  results::Summary plan(const std::filesystem::path& nc,
                         std::optional<double> feedrate = std::nullopt) const {
     return execute(nc, machine(), nullptr, feedrate);
   }
 
-  metrics::Summary run(const std::filesystem::path& nc, const std::string& machine_name) const {
+  results::Summary run(const std::filesystem::path& nc, const std::string& machine_name) const {
     const config::MachineFile file = machine(machine_name);
     hal::MujocoMachine table(file.table);
     return execute(nc, file, &table, std::nullopt);
   }
 
-  metrics::Summary execute(const std::filesystem::path& nc, const config::MachineFile& file,
+  results::Summary execute(const std::filesystem::path& nc, const config::MachineFile& file,
                            hal::Machine* hal, std::optional<double> feedrate) const {
     runtime::RunRequest request;
     request.program = nc;

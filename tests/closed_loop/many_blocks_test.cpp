@@ -3,12 +3,12 @@
 #include <cmath>
 #include <fstream>
 
-#include "tests/cli/child.hpp"
 #include "tests/closed_loop/loop_fixture.hpp"
+#include "tests/support/child.hpp"
 
 // What cutting a path into many blocks must not cost: time on the machine, and memory.
 namespace twin {
-namespace {
+namespace many_blocks_test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kHasSanitizer = true;
@@ -81,5 +81,5 @@ TEST_F(ManyBlocks, MemoryDoesNotDependOnTheProgramsLength) {
   EXPECT_LT(peak_memory(2 * kEnough), peak_memory(kEnough) + 5.0);
 }
 
-}  // namespace
+}  // namespace many_blocks_test
 }  // namespace twin

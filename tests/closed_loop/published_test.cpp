@@ -9,7 +9,7 @@
 // The two programs beside what Wang & Yau publish of theirs: Tables 1 and 3, machining times of the
 // NURBS rows of Tables 4 and 5.
 namespace twin {
-namespace {
+namespace published_test {
 
 struct Published {
   const char* program;
@@ -34,7 +34,7 @@ class PublishedFigures : public test::LoopTest, public ::testing::WithParamInter
 };
 
 TEST_P(PublishedFigures, BlocksAreThoseOfTable1) {
-  const metrics::BlockFigures blocks = plan(program(paper.program)).blocks;
+  const results::BlockFigures blocks = plan(program(paper.program)).blocks;
   EXPECT_EQ(blocks.short_blocks, paper.short_blocks);
   EXPECT_EQ(fmt::format("{:.3f}", blocks.length_min), paper.shortest);
   EXPECT_EQ(fmt::format("{:.3f}", blocks.length_mean), paper.mean);
@@ -44,7 +44,7 @@ TEST_P(PublishedFigures, BlocksAreThoseOfTable1) {
 TEST_P(PublishedFigures, CompressionAndCommandErrorAreNoWorseThanTable3) {
   config::MachineFile file = machine();
   file.path.planner = Planner::kPaper;
-  const metrics::Summary summary = execute(program(paper.program), file, nullptr, std::nullopt);
+  const results::Summary summary = execute(program(paper.program), file, nullptr, std::nullopt);
   EXPECT_GE(summary.compression_factor, paper.compression_factor);
   EXPECT_LE(units::um_from_mm(summary.command_contour_error.max), paper.command_error_max);
   EXPECT_LE(units::um_from_mm(summary.command_contour_error.rms), paper.command_error_rms);
@@ -61,7 +61,7 @@ TEST_P(PublishedFigures, PlannedTimesAreThoseOfTables4And5) {
 }
 
 TEST_P(PublishedFigures, TableFollowsAt3000MmPerMin) {
-  const metrics::Summary summary = run(program(paper.program), "xy_table.toml");
+  const results::Summary summary = run(program(paper.program), "xy_table.toml");
   ASSERT_TRUE(summary.run);
   EXPECT_LT(units::um_from_mm(summary.run->contour_error.rms), 10.0);
   EXPECT_LT(units::um_from_mm(summary.run->contour_error.max), 40.0);
@@ -70,7 +70,7 @@ TEST_P(PublishedFigures, TableFollowsAt3000MmPerMin) {
 }
 
 TEST_P(PublishedFigures, TableWithoutFrictionAndWithIdealGainsIsTenTimesBetter) {
-  const metrics::Summary summary = run(program(paper.program), "xy_table_ideal.toml");
+  const results::Summary summary = run(program(paper.program), "xy_table_ideal.toml");
   ASSERT_TRUE(summary.run);
   EXPECT_LT(units::um_from_mm(summary.run->contour_error.rms), 0.5);
   // The maximum is that of the command, at rounded corners.
@@ -84,5 +84,5 @@ INSTANTIATE_TEST_SUITE_P(Programs, PublishedFigures, ::testing::ValuesIn(kPublis
                            return name.substr(0, name.find('.'));
                          });
 
-}  // namespace
+}  // namespace published_test
 }  // namespace twin

@@ -7,7 +7,7 @@
 #include <fstream>
 
 namespace twin::config {
-namespace {
+namespace find_file_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -75,5 +75,5 @@ TEST_F(FindFile, MissingFoldersAreLeftOut) {
   EXPECT_TRUE(data_folders("no_such_folder_anywhere").empty());
 }
 
-}  // namespace
+}  // namespace find_file_test
 }  // namespace twin::config

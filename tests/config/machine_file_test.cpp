@@ -8,7 +8,7 @@
 #include "config/binding.hpp"
 
 namespace twin::config {
-namespace {
+namespace machine_file_test {
 
 using ::testing::HasSubstr;
 
@@ -46,7 +46,7 @@ TEST(MachineFile, ValuesComeIntoBaseUnits) {
   EXPECT_DOUBLE_EQ(m.period, 0.00025);
   EXPECT_DOUBLE_EQ(m.servo[hal::kY].ka, 0.002);
   EXPECT_DOUBLE_EQ(m.servo[hal::kY].trim_V, -0.5);
-  EXPECT_DOUBLE_EQ(m.servo[hal::kX].ka, servo::Gains{}.ka);
+  EXPECT_DOUBLE_EQ(m.servo[hal::kX].ka, motion::Gains{}.ka);
   EXPECT_DOUBLE_EQ(m.limits.jerk, Limits{}.jerk);
   EXPECT_EQ(m.name, "desk");
 }
@@ -171,5 +171,5 @@ TEST(MachineFile, FilesThatCannotBeReadAreRefused) {
   std::filesystem::remove(binary);
 }
 
-}  // namespace
+}  // namespace machine_file_test
 }  // namespace twin::config

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace twin::config {
-namespace {
+namespace nearest_name_test {
 
 TEST(NearestName, EditDistanceOfTextbookPairs) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
@@ -38,5 +38,5 @@ TEST(NearestName, FarWordsAreNotSuggested) {
   EXPECT_EQ(did_you_mean("colour", names), "");
 }
 
-}  // namespace
+}  // namespace nearest_name_test
 }  // namespace twin::config

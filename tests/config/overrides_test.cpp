@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace twin::config {
-namespace {
+namespace overrides_test {
 
 using ::testing::HasSubstr;
 
@@ -42,7 +42,7 @@ TEST(Overrides, TakeEveryKindOfValue) {
   EXPECT_EQ(machine.table.model, "quoted.xml");
   ASSERT_TRUE(apply_override(machine, "servo.x.kp=7"));
   EXPECT_DOUBLE_EQ(machine.servo[hal::kX].kp, 7.0);
-  EXPECT_DOUBLE_EQ(machine.servo[hal::kY].kp, servo::Gains{}.kp);
+  EXPECT_DOUBLE_EQ(machine.servo[hal::kY].kp, motion::Gains{}.kp);
 }
 
 TEST(Overrides, ChooseAFeedrateRuleByName) {
@@ -107,5 +107,5 @@ TEST(Overrides, LaterOnesWin) {
   EXPECT_DOUBLE_EQ(machine.limits.jerk, 2000.0);
 }
 
-}  // namespace
+}  // namespace overrides_test
 }  // namespace twin::config

@@ -4,7 +4,7 @@
 #include "config/machine_file.hpp"
 
 namespace twin::config {
-namespace {
+namespace rig_settings_test {
 
 using hal::rig::Access;
 using hal::rig::Driver;
@@ -156,5 +156,5 @@ TEST(RigSection, AnOverrideIsCheckedWithTheRest) {
   EXPECT_FALSE(swapped->rig.read_index);
 }
 
-}  // namespace
+}  // namespace rig_settings_test
 }  // namespace twin::config

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace twin {
-namespace {
+namespace error_test {
 
 TEST(Error, TextLeavesOutThePlaceThatIsNotKnown) {
   const auto text = [](std::string file, int line, int column) {
@@ -31,5 +31,5 @@ TEST(Error, FailCarriesCodeAndMessageWithoutAPlace) {
   EXPECT_EQ(to_string(result.error()), "alarm of the x drive");
 }
 
-}  // namespace
+}  // namespace error_test
 }  // namespace twin

@@ -5,7 +5,7 @@
 #include <numbers>
 
 namespace twin::units {
-namespace {
+namespace units_test {
 
 TEST(Units, KnownPairs) {
   EXPECT_DOUBLE_EQ(mm_per_s_from_mm_per_min(3000.0), 50.0);
@@ -29,5 +29,5 @@ TEST(Units, WayOutAndBackIsTheSame) {
   }
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace twin::units

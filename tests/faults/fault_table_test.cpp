@@ -7,12 +7,12 @@
 
 #include "tests/cli/cli_fixture.hpp"
 #include "tests/runtime/trace_rows.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 // Every fault behind the wires, through the program as a user runs it. In simulated time, so that
 // the figures are the same on every machine.
 namespace twin::cli {
-namespace {
+namespace fault_table_test {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -101,5 +101,5 @@ TEST_F(FaultRun, FaultThatDoesNotExistIsBadUsage) {
   expect_refusal(run({"--fault", "meltdown:x@1"}), 2, "encoder_frozen");
 }
 
-}  // namespace
+}  // namespace fault_table_test
 }  // namespace twin::cli

@@ -9,7 +9,7 @@
 // load stands still by itself for tens of milliseconds; so what has to be quick may be tried a few
 // times.
 namespace twin::test {
-namespace {
+namespace process_faults_test {
 
 using ::testing::HasSubstr;
 
@@ -153,5 +153,5 @@ TEST_F(ProcessFault, SecondControllerIsRefused) {
   EXPECT_THAT(second.err, HasSubstr("drives the emulated rig already"));
 }
 
-}  // namespace
+}  // namespace process_faults_test
 }  // namespace twin::test

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/faults/fault_table.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::test {
-namespace {
+namespace readme_test {
 
 TEST(FaultTableInReadme, HasTheRowsThatAreTested) {
   const std::string readme = content(TWIN_SOURCE_DIR "/hal/README.md");
@@ -14,5 +14,5 @@ TEST(FaultTableInReadme, HasTheRowsThatAreTested) {
   }
 }
 
-}  // namespace
+}  // namespace readme_test
 }  // namespace twin::test

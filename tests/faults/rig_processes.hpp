@@ -16,9 +16,9 @@
 #include <thread>
 #include <vector>
 
-#include "tests/cli/child.hpp"
-#include "tests/runtime/temp_folder.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/child.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::test {
 

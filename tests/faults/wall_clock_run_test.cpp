@@ -4,7 +4,7 @@
 
 // Controller and plant as two programs in real time, to the end of the program.
 namespace twin::test {
-namespace {
+namespace wall_clock_run_test {
 
 TEST(WallClockRun, LastsAsLongAsPlannedAndReportsItsTiming) {
   RigProcesses rig;
@@ -28,5 +28,5 @@ TEST(WallClockRun, LastsAsLongAsPlannedAndReportsItsTiming) {
   EXPECT_TRUE(rig.safe_after(begin)) << rig.log();
 }
 
-}  // namespace
+}  // namespace wall_clock_run_test
 }  // namespace twin::test

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "feedrate/limit_zone.hpp"
-#include "feedrate/ramp_limits.hpp"
+#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/profile/ramp_limits.hpp"
 
 namespace twin::feedrate::testing {
 

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/motion_profile.hpp"
-#include "tests/feedrate/plan.hpp"
-#include "tests/feedrate/random_program.hpp"
+#include "tests/feedrate/profile/motion_profile.hpp"
 #include "tests/path/blocks.hpp"
+#include "tests/support/plan.hpp"
+#include "tests/support/random_program.hpp"
 
 namespace twin::feedrate {
-namespace {
+namespace look_ahead_certified_test {
 
 using path::testing::line_block;
 using testing::expect_whole;
@@ -67,5 +67,5 @@ TEST(LookAheadCertified, ALineTakesAsLongInAnyNumberOfPieces) {
   }
 }
 
-}  // namespace
+}  // namespace look_ahead_certified_test
 }  // namespace twin::feedrate

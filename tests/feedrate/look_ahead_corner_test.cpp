@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "feedrate/corner_limit.hpp"
-#include "tests/feedrate/motion_profile.hpp"
-#include "tests/feedrate/plan.hpp"
+#include "feedrate/limits/corner_limit.hpp"
+#include "tests/feedrate/profile/motion_profile.hpp"
 #include "tests/path/blocks.hpp"
+#include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
-namespace {
+namespace look_ahead_corner_test {
 
 using path::testing::arc_block;
 using path::testing::line_block;
@@ -69,5 +69,5 @@ TEST(LookAheadCorner, CornersWithinOnePeriodActAsOne) {
   EXPECT_LE(feedrate_at_end(planned.segments[0]), 2450.0 * 1e-3 / 2.0 + 1e-3);
 }
 
-}  // namespace
+}  // namespace look_ahead_corner_test
 }  // namespace twin::feedrate

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/motion_profile.hpp"
-#include "tests/feedrate/plan.hpp"
-#include "tests/feedrate/random_program.hpp"
+#include "tests/feedrate/profile/motion_profile.hpp"
 #include "tests/path/blocks.hpp"
+#include "tests/support/plan.hpp"
+#include "tests/support/random_program.hpp"
 
 namespace twin::feedrate {
-namespace {
+namespace look_ahead_random_test {
 
 using testing::expect_whole;
 using testing::plan;
@@ -98,5 +98,5 @@ TEST(LookAheadRandom, NoPlanIsFasterThanAccelerationAloneAllows) {
   }
 }
 
-}  // namespace
+}  // namespace look_ahead_random_test
 }  // namespace twin::feedrate

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "feedrate/look_ahead.hpp"
-#include "tests/feedrate/plan.hpp"
 #include "tests/path/blocks.hpp"
+#include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
-namespace {
+namespace look_ahead_start_test {
 
 using path::testing::build;
 using path::testing::line_block;
@@ -110,5 +110,5 @@ TEST(LookAheadStart, AStartThatIsTooFastForTheBendAheadComesDownAndIsCounted) {
   }
 }
 
-}  // namespace
+}  // namespace look_ahead_start_test
 }  // namespace twin::feedrate

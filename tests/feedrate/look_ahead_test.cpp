@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/plan.hpp"
 #include "tests/path/blocks.hpp"
+#include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
-namespace {
+namespace look_ahead_test {
 
 using path::testing::dwell_block;
 using path::testing::line_block;
@@ -166,5 +166,5 @@ TEST(LookAhead, HoldsTheRapidFeedrateOnRapids) {
   EXPECT_NEAR(fastest, 80.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace look_ahead_test
 }  // namespace twin::feedrate

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/plan.hpp"
-#include "tests/feedrate/profiles.hpp"
-#include "tests/feedrate/random_program.hpp"
+#include "tests/feedrate/profile/profiles.hpp"
 #include "tests/path/blocks.hpp"
+#include "tests/support/plan.hpp"
+#include "tests/support/random_program.hpp"
 
 // Acceleration profiles through the whole planner.
 namespace twin::feedrate {
-namespace {
+namespace plan_profile_test {
 
 using testing::kProfiles;
 using testing::PlanSettings;
@@ -135,5 +135,5 @@ TEST(PlanProfile, NoProfileIsFasterThanTrapezoidalOverRandomPrograms) {
   EXPECT_LT(std::max(sum[1], sum[2]), 1.5 * sum[0]);
 }
 
-}  // namespace
+}  // namespace plan_profile_test
 }  // namespace twin::feedrate

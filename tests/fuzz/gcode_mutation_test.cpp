@@ -11,7 +11,7 @@
 #include "gcode/reader.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace gcode_mutation_test {
 
 using Random = std::mt19937_64;
 
@@ -69,7 +69,7 @@ void mutate(std::string& text, Random& random) {
 }
 
 bool is_sound(const ProgrammedCurve& programmed, const Block& block) {
-  const nurbs::Curve& curve = programmed.curve;
+  const geometry::Curve& curve = programmed.curve;
   return curve.control_points().front() == block.start &&
          curve.control_points().back() == block.end && programmed.arc_length.length() > 0.0 &&
          std::isfinite(programmed.arc_length.length()) && programmed.samples.size() >= 5 &&
@@ -142,5 +142,5 @@ TEST(GcodeMutation, RandomBytesAreAlwaysRefused) {
   }
 }
 
-}  // namespace
+}  // namespace gcode_mutation_test
 }  // namespace twin::gcode

@@ -10,7 +10,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace arc_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -225,5 +225,5 @@ TEST(Arc, ByRadiusIsTheArcByOffset) {
   }
 }
 
-}  // namespace
+}  // namespace arc_test
 }  // namespace twin::gcode

@@ -3,7 +3,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace dwell_and_stop_test {
 
 TEST(Dwell, TakesItsTimeInSecondsWhereThePathStands) {
   const auto blocks = blocks_of("G0 X1 Y2\nG4 P0.25\nX3");
@@ -46,5 +46,5 @@ TEST(Stop, SpindleAndCoolantPassBy) {
   EXPECT_EQ(blocks_of("G0 X1\nM3 S100 M8\nM4\nM5\nM7\nM9\nX2").size(), 2U);
 }
 
-}  // namespace
+}  // namespace dwell_and_stop_test
 }  // namespace twin::gcode

@@ -3,7 +3,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace feedrate_test {
 
 TEST(Feedrate, MillimetresPerMinuteBecomeMillimetresPerSecond) {
   EXPECT_DOUBLE_EQ(blocks_of("G1 X1 F3000")[0].feedrate, 50.0);
@@ -36,5 +36,5 @@ TEST(Feedrate, OptionTakesThePlaceOfEveryFWord) {
             "line 1:7: F0: expected a feedrate above zero, in units per minute");
 }
 
-}  // namespace
+}  // namespace feedrate_test
 }  // namespace twin::gcode

@@ -10,7 +10,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace golden_test {
 
 namespace fs = std::filesystem;
 
@@ -65,5 +65,5 @@ TEST(Golden, BadProgramsGetTheirMessage) {
   }
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace twin::gcode

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace twin::gcode {
-namespace {
+namespace lexer_test {
 
 /// The words of a line as "letter value @column", or the fault as "column: message".
 std::string words_of(std::string_view line) {
@@ -79,5 +79,5 @@ TEST(Lexer, BytesThatAreNoTextAreGivenByValue) {
   EXPECT_EQ(words_of("(\x01)"), "2: byte 0x01 is not NC text: is this an NC program?");
 }
 
-}  // namespace
+}  // namespace lexer_test
 }  // namespace twin::gcode

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace twin::gcode {
-namespace {
+namespace line_source_test {
 
 using Lines = std::vector<std::string>;
 
@@ -106,5 +106,5 @@ TEST(LineSource, MissingFileAndDirectoryAreFileErrorsWithTheirName) {
   EXPECT_EQ(folder.error().message, "is a directory; expected an NC program");
 }
 
-}  // namespace
+}  // namespace line_source_test
 }  // namespace twin::gcode

@@ -3,7 +3,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace modal_test {
 
 TEST(Modal, MotionAndFeedrateStayInForce) {
   const auto blocks = blocks_of("G1 F600 X1\nY1\nG0 X0\nY0\n");
@@ -92,5 +92,5 @@ TEST(Modal, CancelledMotionRefusesAxisWordsUntilTheNextMotionWord) {
             "line 1:6: a place to go to, but no motion in force: expected G00, G01, G02 or G03");
 }
 
-}  // namespace
+}  // namespace modal_test
 }  // namespace twin::gcode

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace twin::gcode {
-namespace {
+namespace number_test {
 
 void expect_number(const std::string& text, double value, std::size_t length) {
   const Number number = parse_number(text);
@@ -56,5 +56,5 @@ TEST(Number, IsTheNearestDoubleOfTheCLibrary) {
   }
 }
 
-}  // namespace
+}  // namespace number_test
 }  // namespace twin::gcode

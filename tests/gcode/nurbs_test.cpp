@@ -11,7 +11,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace nurbs_test {
 
 using testing::HasSubstr;
 
@@ -25,7 +25,7 @@ TEST(ReadNurbs, QuarterCircleByRationalParabolaIsACircle) {
       "G01 F600 X5 Y0\nG06.2 P3 K0 X5 Y0 R1\nK0 X5 Y5 R{:.15f}\nK0 X0 Y5 R1\nK1\nK1\nK1\nM30\n",
       std::sqrt(0.5)));
   ASSERT_EQ(blocks.size(), 2U);
-  const nurbs::Curve& curve = blocks[1].nurbs->curve;
+  const geometry::Curve& curve = blocks[1].nurbs->curve;
   for (int i = 0; i <= 100; ++i) {
     EXPECT_NEAR(curve.position(0.01 * i).norm(), 5.0, 1e-12);
   }
@@ -40,7 +40,7 @@ TEST(ReadNurbs, FourUniformControlPointsOfOrderFourAreABezierCurve) {
   EXPECT_EQ(blocks[1].start, Vec3(1.0, 0.0, 0.0));
   EXPECT_EQ(blocks[1].end, Vec3(3.0, 0.0, 0.0));
   EXPECT_EQ(blocks[1].feedrate, 10.0);
-  const nurbs::Curve& curve = blocks[1].nurbs->curve;
+  const geometry::Curve& curve = blocks[1].nurbs->curve;
   for (int i = 0; i <= 10; ++i) {
     const double u = 0.1 * i;
     const double v = 1.0 - u;
@@ -62,7 +62,7 @@ TEST(ReadNurbs, TheCurveOfLinuxCnc) {
   const auto blocks =
       blocks_of("G90 G0 X0 Y0\nF600\nG5.2 P1 L4\nX1 Y2 P1\nX2 Y2 P1\nX3 Y0 P1\nX5 Y5 P1\nG5.3\n");
   ASSERT_EQ(blocks.size(), 1U);
-  const nurbs::Curve& curve = blocks[0].nurbs->curve;
+  const geometry::Curve& curve = blocks[0].nurbs->curve;
   for (const Vec3& known :
        {Vec3(0.763553, 1.28159, 0.0), Vec3(1.39109, 1.76902, 0.0), Vec3(1.89985, 1.59289, 0.0),
         Vec3(2.40439, 1.12941, 0.0), Vec3(3.14269, 1.37193, 0.0), Vec3(4.40938, 3.59691, 0.0)}) {
@@ -213,5 +213,5 @@ TEST(ReadNurbs, AbsurdSizes) {
   EXPECT_THAT(error_of(many), HasSubstr("more than 100000 control points in one NURBS"));
 }
 
-}  // namespace
+}  // namespace nurbs_test
 }  // namespace twin::gcode

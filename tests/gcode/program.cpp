@@ -18,7 +18,7 @@ std::string to_text(const Vec3& point) {
                      without_minus_zero(point.y()), without_minus_zero(point.z()));
 }
 
-std::string to_text(const nurbs::Curve& curve) {
+std::string to_text(const geometry::Curve& curve) {
   std::string text = fmt::format("degree {} U", curve.degree());
   for (const double knot : curve.knots()) {
     text += fmt::format(" {:.6g}", knot);

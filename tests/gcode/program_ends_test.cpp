@@ -6,7 +6,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace program_ends_test {
 
 TEST(ProgramEnd, NothingIsReadAfterM2OrM30) {
   EXPECT_EQ(blocks_of("G0 X1\nX2 M30\n\x01 junk").size(), 2U);
@@ -90,5 +90,5 @@ TEST(Reader, MovesOnlyAndKeepsItsPlaceWhenMoved) {
   EXPECT_EQ(second.bytes_read(), second.size());
 }
 
-}  // namespace
+}  // namespace program_ends_test
 }  // namespace twin::gcode

@@ -8,7 +8,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace refused_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -81,5 +81,5 @@ TEST(Refused, ArcWordsWithoutAnArc) {
   EXPECT_EQ(error_of("G1 F1 X1 R1"), "line 1:10: an arc's I, J, K or R needs G02 or G03 in force");
 }
 
-}  // namespace
+}  // namespace refused_test
 }  // namespace twin::gcode

@@ -9,7 +9,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace {
+namespace spelling_test {
 
 using Random = std::mt19937_64;
 
@@ -125,5 +125,5 @@ TEST(Spelling, IncrementalPlacesEqualAbsoluteOnes) {
   EXPECT_EQ(to_text(blocks_of(incremental)), to_text(blocks_of(absolute)));
 }
 
-}  // namespace
+}  // namespace spelling_test
 }  // namespace twin::gcode

@@ -8,14 +8,14 @@
 
 #include "hal/ideal/ideal_machine.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/count_new.hpp"
 #include "tests/hal/position_loop.hpp"
+#include "tests/hal/rig/emulated_machine.hpp"
 #include "tests/hal/table_files.hpp"
-#include "tests/hal_rig/emulated_machine.hpp"
+#include "tests/support/allocations.hpp"
 
 // What every machine must do, whatever is behind its wires.
 namespace twin::hal {
-namespace {
+namespace contract_test {
 
 using testing::default_gains;
 using testing::mjcf_file;
@@ -220,5 +220,5 @@ TEST(IdealMachine, TruthIsTheReferenceOfTheSamePeriod) {
   }
 }
 
-}  // namespace
+}  // namespace contract_test
 }  // namespace twin::hal

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace twin::hal {
-namespace {
+namespace dac_test {
 
 // Code table of the PCI-1716 in its +-10 V range.
 TEST(Dac, SixteenBitCodesAreOffsetBinaryOverTenVolts) {
@@ -44,5 +44,5 @@ TEST(Dac, ErrorIsAtMostHalfAStep) {
   }
 }
 
-}  // namespace
+}  // namespace dac_test
 }  // namespace twin::hal

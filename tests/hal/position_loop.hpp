@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "hal/machine.hpp"
-#include "servo/axis_scaling.hpp"
-#include "servo/axis_servo.hpp"
+#include "motion/servo/axis_scaling.hpp"
+#include "motion/servo/axis_servo.hpp"
 #include "tests/hal/motions.hpp"
 
 namespace twin::hal::testing {
@@ -21,8 +21,8 @@ struct Row {
   bool operator==(const Row&) const = default;
 };
 
-inline servo::Gains gains(double kp, double kf, double ka) {
-  servo::Gains g;
+inline motion::Gains gains(double kp, double kf, double ka) {
+  motion::Gains g;
   g.kp = kp;
   g.kf = kf;
   g.ka = ka;
@@ -30,13 +30,13 @@ inline servo::Gains gains(double kp, double kf, double ka) {
 }
 
 /// Gains of mjcf/xy_table.toml.
-inline std::array<servo::Gains, 2> default_gains() {
+inline std::array<motion::Gains, 2> default_gains() {
   return {gains(150.0, 1.003, 2.3e-3), gains(150.0, 1.008, 2.4e-3)};
 }
 
 /// Configures and activates a machine, holds it for 0.3 s, then moves it for some time.
 /// @param motion set point at a time since the start [s]
-inline std::vector<Row> run_loop(Machine& machine, const std::array<servo::Gains, 2>& g,
+inline std::vector<Row> run_loop(Machine& machine, const std::array<motion::Gains, 2>& g,
                                  double period, double duration,
                                  const std::function<PlanePoint(double)>& motion) {
   if (auto result = machine.configure(period); !result) {
@@ -46,8 +46,9 @@ inline std::vector<Row> run_loop(Machine& machine, const std::array<servo::Gains
     throw std::runtime_error(to_string(result.error()));
   }
   const MachineInfo& info = machine.info();
-  std::array<servo::AxisServo, 2> servos{servo::AxisServo(g[0], info.mm_per_s_per_volt[0], period),
-                                         servo::AxisServo(g[1], info.mm_per_s_per_volt[1], period)};
+  std::array<motion::AxisServo, 2> servos{
+      motion::AxisServo(g[0], info.mm_per_s_per_volt[0], period),
+      motion::AxisServo(g[1], info.mm_per_s_per_volt[1], period)};
   const int hold = static_cast<int>(std::lround(0.3 / period));
   const int periods = static_cast<int>(std::lround(duration / period));
   std::vector<Row> rows;
@@ -62,7 +63,7 @@ inline std::vector<Row> run_loop(Machine& machine, const std::array<servo::Gains
     Row row;
     for (std::size_t a = 0; a < 2; ++a) {
       row.command[a] = point.position[a];
-      row.encoder[a] = servo::position_from_counts(inputs.counts[a], info.mm_per_count[a]);
+      row.encoder[a] = motion::position_from_counts(inputs.counts[a], info.mm_per_count[a]);
       outputs.volts[a] = servos[a].update(
           {point.position[a], point.velocity[a], point.acceleration[a]}, row.encoder[a]);
       outputs.position_reference[a] = point.position[a];

@@ -8,7 +8,7 @@
 #include "nc_programs/generate/rational_curve.hpp"
 
 namespace twin::programs {
-namespace {
+namespace bspline_test {
 
 TEST(BSpline, WithoutInnerKnotsItIsTheBezierCurve) {
   const BSpline<2> c{3, {0, 0, 0, 0, 1, 1, 1, 1}, {{0, 0}, {1, 2}, {3, 2}, {4, 0}}};
@@ -80,5 +80,5 @@ TEST(RationalCurve, ChordsOfACircleHaveTheLengthOfTheTolerance) {
   EXPECT_EQ(linearise(c, 0.001, 1.0).size(), 41U);
 }
 
-}  // namespace
+}  // namespace bspline_test
 }  // namespace twin::programs

@@ -9,7 +9,7 @@
 #include "nc_file.hpp"
 
 namespace twin::programs {
-namespace {
+namespace butterfly_test {
 
 /// Length by Simpson's rule on every knot span [mm].
 double length_of(const RationalCurve& curve) {
@@ -81,5 +81,5 @@ TEST(Butterfly, NoPointOfTheCurveIsFartherThanAMicrometreFromTheProgram) {
   EXPECT_GT(worst, 0.0008);  // and no finer than it has to be
 }
 
-}  // namespace
+}  // namespace butterfly_test
 }  // namespace twin::programs

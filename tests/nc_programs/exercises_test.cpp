@@ -6,7 +6,7 @@
 #include "nc_file.hpp"
 
 namespace twin::programs::test {
-namespace {
+namespace exercises_test {
 
 constexpr double kTravel = 190.0;  // [mm]
 
@@ -86,5 +86,5 @@ TEST(EveryProgram, KeepsToTheTravelAndEndsWithM30) {
   }
 }
 
-}  // namespace
+}  // namespace exercises_test
 }  // namespace twin::programs::test

@@ -7,7 +7,7 @@
 #include "nc_file.hpp"
 
 namespace twin::programs::test {
-namespace {
+namespace outline_programs_test {
 
 /// Figures of one program: Table 1 of the paper (blocks and lengths) and what the outline was made
 /// for.
@@ -159,5 +159,5 @@ INSTANTIATE_TEST_SUITE_P(Table1, OutlineProgram,
                            return name.substr(0, name.find('.'));
                          });
 
-}  // namespace
+}  // namespace outline_programs_test
 }  // namespace twin::programs::test

@@ -4,7 +4,7 @@
 #include "nc_programs/generate/programs.hpp"
 
 namespace twin::programs {
-namespace {
+namespace regenerate_test {
 
 TEST(Generator, WritesTheFilesThatAreKept) {
   const std::vector<ProgramFile> made = all_programs();
@@ -15,5 +15,5 @@ TEST(Generator, WritesTheFilesThatAreKept) {
   }
 }
 
-}  // namespace
+}  // namespace regenerate_test
 }  // namespace twin::programs

@@ -9,7 +9,7 @@
 #include "nc_programs/generate/linearise.hpp"
 
 namespace twin::programs {
-namespace {
+namespace rounding_test {
 
 FairCurve segment(const Point2& a, const Point2& b) { return {{a, 0.5 * (a + b), b}, 1.0}; }
 
@@ -103,5 +103,5 @@ TEST(Linearise, RoundedRectangleTakesTheAskedNumberWithoutALeftOver) {
   EXPECT_GT((chords.points[320] - chords.points[319]).norm(), 0.5 - 1e-6);
 }
 
-}  // namespace
+}  // namespace rounding_test
 }  // namespace twin::programs

@@ -8,7 +8,7 @@
 #include "nc_file.hpp"
 
 namespace twin::programs::test {
-namespace {
+namespace short_blocks_test {
 
 TEST(Zigzag, Has1000BlocksOfATenthAndOnlyRightAngles) {
   const std::vector<Point> p = polygon("zigzag.nc");
@@ -64,5 +64,5 @@ TEST(Trochoid, Has200000BlocksOfATenth) {
   EXPECT_LT(text.size(), 4'000'000U);
 }
 
-}  // namespace
+}  // namespace short_blocks_test
 }  // namespace twin::programs::test

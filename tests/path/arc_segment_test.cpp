@@ -3,7 +3,7 @@
 #include "tests/path/blocks.hpp"
 
 namespace twin::path {
-namespace {
+namespace arc_segment_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -111,5 +111,5 @@ TEST(Arc, StaysAtItsEndsBeyondThem) {
   EXPECT_LT((point_at(arc, 9.0).position - point_at(arc, arc.length).position).norm(), 1e-14);
 }
 
-}  // namespace
+}  // namespace arc_segment_test
 }  // namespace twin::path

@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "nurbs/fit.hpp"
+#include "geometry/nurbs/fit.hpp"
 #include "tests/path/blocks.hpp"
 
 namespace twin::path {
-namespace {
+namespace curve_segment_test {
 
 FittedCurve circle_curve(double radius, double chord, int count) {
-  nurbs::Fitter fitter;
+  geometry::Fitter fitter;
   FittedCurve fitted;
   EXPECT_TRUE(fitter.fit(testing::circle_points(radius, chord, count), {}, {}, fitted.curve));
   measure(fitted);
@@ -41,5 +41,5 @@ TEST(CurveSegment, HasCurvatureSamplesFromEndToEnd) {
   }
 }
 
-}  // namespace
+}  // namespace curve_segment_test
 }  // namespace twin::path

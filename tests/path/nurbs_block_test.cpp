@@ -4,7 +4,7 @@
 #include "gcode/programmed_curve.hpp"
 
 namespace twin::path {
-namespace {
+namespace nurbs_block_test {
 
 using testing::build;
 using testing::circle_points;
@@ -20,7 +20,7 @@ gcode::Block nurbs_block(int degree, std::vector<double> knots, std::vector<Vec3
   block.tolerance = 0.02;
   block.line = 7;
   block.nurbs = *gcode::make_programmed_curve(
-      *nurbs::Curve::create(degree, std::move(knots), std::move(points)));
+      *geometry::Curve::create(degree, std::move(knots), std::move(points)));
   return block;
 }
 
@@ -85,5 +85,5 @@ TEST(NurbsBlock, EndsTheRunBeforeIt) {
   EXPECT_FALSE(std::get<FittedCurve>(segments.front().geometry).is_programmed);
 }
 
-}  // namespace
+}  // namespace nurbs_block_test
 }  // namespace twin::path

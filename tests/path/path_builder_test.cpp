@@ -7,7 +7,7 @@
 #include "tests/path/blocks.hpp"
 
 namespace twin::path {
-namespace {
+namespace path_builder_test {
 
 using testing::arc_block;
 using testing::build;
@@ -193,5 +193,5 @@ TEST(PathBuilder, MakesCurvesWithoutCurvatureOfAStraightLineInPieces) {
   }
 }
 
-}  // namespace
+}  // namespace path_builder_test
 }  // namespace twin::path

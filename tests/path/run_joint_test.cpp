@@ -3,7 +3,7 @@
 #include "tests/path/blocks.hpp"
 
 namespace twin::path {
-namespace {
+namespace run_joint_test {
 
 using testing::build;
 using testing::is_curve;
@@ -101,5 +101,5 @@ TEST(RunJoint, DoesNotDependOnHowManyBlocksFollow) {
   }
 }
 
-}  // namespace
+}  // namespace run_joint_test
 }  // namespace twin::path

@@ -6,7 +6,7 @@
 #include "tests/path/blocks.hpp"
 
 namespace twin::path {
-namespace {
+namespace run_tolerance_test {
 
 using testing::build;
 using testing::distance_to;
@@ -127,5 +127,5 @@ TEST(RunTolerance, LeavesLinesWhereTheBiChordTestPassesAndTheCurveDoesNot) {
   EXPECT_GT(broken, 10U);
 }
 
-}  // namespace
+}  // namespace run_tolerance_test
 }  // namespace twin::path

@@ -5,7 +5,7 @@
 #include "tests/path/blocks.hpp"
 
 namespace twin::path {
-namespace {
+namespace segment_test {
 
 using testing::dwell_block;
 using testing::line_block;
@@ -86,5 +86,5 @@ TEST(MakeSegment, OfAnExactStopBlockStopsAtItsEnd) {
   EXPECT_TRUE(make_segment(block, 0, {}, {}).stops_at_end);
 }
 
-}  // namespace
+}  // namespace segment_test
 }  // namespace twin::path

@@ -9,7 +9,7 @@
 #include "core/units.hpp"
 
 namespace twin::path {
-namespace {
+namespace short_block_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -86,5 +86,5 @@ TEST(BiChordError, IsTheSameInBothDirections) {
   EXPECT_DOUBLE_EQ(bi_chord_error(a, b, c), bi_chord_error(c, b, a));
 }
 
-}  // namespace
+}  // namespace short_block_test
 }  // namespace twin::path

@@ -5,7 +5,7 @@
 #include "tests/path/smooth_path.hpp"
 
 namespace twin::path {
-namespace {
+namespace smooth_builder_test {
 
 using testing::arc_block;
 using testing::circle_points;
@@ -153,5 +153,5 @@ TEST(SmoothBuilder, RestsAtDwells) {
   expect_marks(segments, 22);
 }
 
-}  // namespace
+}  // namespace smooth_builder_test
 }  // namespace twin::path

@@ -6,7 +6,7 @@
 #include "tests/path/smooth_path.hpp"
 
 namespace twin::path {
-namespace {
+namespace smooth_fuzz_test {
 
 using testing::arc_block;
 using testing::expect_marks;
@@ -150,5 +150,5 @@ TEST(SmoothFuzz, RandomProgramsKeepTheirPromises) {
   }
 }
 
-}  // namespace
+}  // namespace smooth_fuzz_test
 }  // namespace twin::path

@@ -15,7 +15,7 @@
 // Settings: faultless_table() (no friction, hum, delay and current lag; 0.1 nm a count, 40 bits)
 // and besides a velocity loop of 8 kHz without integral (20 us of lag), physics steps of 12.5 us.
 namespace twin::hal {
-namespace {
+namespace circle_error_test {
 
 constexpr double kGain_Hz = 8000.0;  // of the velocity loop
 constexpr double kStep = 12.5e-6;    // [s]
@@ -48,7 +48,7 @@ TableParams near_ideal_table() {
 /// Programmed radius less the mean radius of the last turn [mm].
 double measured_error(const Case& c) {
   MujocoMachine machine(near_ideal_table());
-  const servo::Gains gains = testing::gains(c.kp, c.kf, 0.0);
+  const motion::Gains gains = testing::gains(c.kp, c.kf, 0.0);
   const double turn = 2.0 * std::numbers::pi / c.omega();
   const double settled = 0.2 + 12.0 / c.kp;  // ramp, then 12 time constants of the loop [s]
   const auto rows =
@@ -113,5 +113,5 @@ INSTANTIATE_TEST_SUITE_P(GainsFeedratesRadii, SampledCircleError,
                                            Case{100.0, 0.34, 100.0, 20.0, 1e-3},
                                            Case{200.0, 0.0, 100.0, 5.0, 0.5e-3}));
 
-}  // namespace
+}  // namespace circle_error_test
 }  // namespace twin::hal

@@ -11,7 +11,7 @@
 
 // The table's velocity after a step of the drive command, without friction and disturbance.
 namespace twin::hal {
-namespace {
+namespace drive_step_test {
 
 using Complex = std::complex<double>;
 
@@ -92,5 +92,5 @@ INSTANTIATE_TEST_SUITE_P(Drives, VelocityStep,
                          ::testing::Values(Case{30.0, 7e-3, 0.45e-3}, Case{150.0, 10e-3, 0.45e-3},
                                            Case{80.0, 5e-3, 2e-3}));
 
-}  // namespace
+}  // namespace drive_step_test
 }  // namespace twin::hal

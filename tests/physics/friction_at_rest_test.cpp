@@ -10,7 +10,7 @@
 // Friction of the whole table at rest and about to move, servo off: MuJoCo's slide and the bristle
 // together.
 namespace twin::hal {
-namespace {
+namespace friction_at_rest_test {
 
 constexpr double kPeriod = 1e-3;  // [s]
 
@@ -117,5 +117,5 @@ INSTANTIATE_TEST_SUITE_P(Axes, PushedTable, ::testing::Values(kX, kY),
                            return tested.param == kX ? "X" : "Y";
                          });
 
-}  // namespace
+}  // namespace friction_at_rest_test
 }  // namespace twin::hal

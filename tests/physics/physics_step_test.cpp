@@ -2,22 +2,22 @@
 
 // Whole programs on the table: what they report must not hang on how finely time is cut.
 namespace twin {
-namespace {
+namespace physics_step_test {
 
 class PhysicsStep : public test::LoopTest, public ::testing::WithParamInterface<const char*> {
  protected:
-  metrics::MachineFigures run_with(double share_of_step) const {
+  results::MachineFigures run_with(double share_of_step) const {
     config::MachineFile file = machine();
     file.table.physics_step *= share_of_step;
     hal::MujocoMachine table(file.table);
     return execute(program(GetParam()), file, &table, std::nullopt)
-        .run.value_or(metrics::MachineFigures());
+        .run.value_or(results::MachineFigures());
   }
 };
 
 TEST_P(PhysicsStep, HalvedChangesNoRmsByOneAndAHalfPercent) {
-  const metrics::MachineFigures coarse = run_with(1.0);
-  const metrics::MachineFigures fine = run_with(0.5);
+  const results::MachineFigures coarse = run_with(1.0);
+  const results::MachineFigures fine = run_with(0.5);
   ASSERT_GT(fine.contour_error.rms, 0.0);
   EXPECT_NEAR(coarse.contour_error.rms / fine.contour_error.rms, 1.0, 0.015);
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -31,5 +31,5 @@ INSTANTIATE_TEST_SUITE_P(Programs, PhysicsStep, ::testing::Values("dolphin.nc", 
                            return name.substr(0, name.find('.'));
                          });
 
-}  // namespace
+}  // namespace physics_step_test
 }  // namespace twin

@@ -9,7 +9,7 @@
 
 // Steady sliding at constant velocity: the motor's torque is what friction takes.
 namespace twin::hal {
-namespace {
+namespace stribeck_curve_test {
 
 constexpr double kStep = 1e-4;  // [s]
 
@@ -78,5 +78,5 @@ TEST_P(SteadySliding, ForceFollowsTheStribeckFormulaWithinOnePercent) {
 INSTANTIATE_TEST_SUITE_P(Axes, SteadySliding, ::testing::Values(kX, kY),
                          [](const auto& tested) { return tested.param == kX ? "X" : "Y"; });
 
-}  // namespace
+}  // namespace stribeck_curve_test
 }  // namespace twin::hal

@@ -8,7 +8,7 @@
 
 // Motion on a wall clock that is late on purpose.
 namespace twin::runtime {
-namespace {
+namespace late_periods_test {
 
 constexpr std::int64_t kMs = 1'000'000;  // [ns]
 
@@ -20,7 +20,7 @@ struct LatePeriods : public ::testing::Test {
       segments.push(std::move(segment));
     }
     segments.close();
-    interpolator::Interpolator interpolator(segments, 1e-3);
+    motion::Interpolator interpolator(segments, 1e-3);
     Cycle cycle(interpolator, &machine, gains, 1e-3);
     clock.lateness = lateness;
     pace.is_wall_clock = true;
@@ -39,7 +39,7 @@ struct LatePeriods : public ::testing::Test {
   }
 
   Limits limits;
-  std::array<servo::Gains, hal::kServoAxes> gains{};
+  std::array<motion::Gains, hal::kServoAxes> gains{};
   test::FakeClock clock;
   test::FakeMachine machine;
   Pace pace;
@@ -80,7 +80,7 @@ TEST_F(LatePeriods, MachineWhoseTimeGoesOnIsSentWhereItShouldBeByNow) {
   expected.erase(expected.begin() + kLate, expected.begin() + kLate + 4);
   EXPECT_EQ(way(), expected);
   // The trace has a row for every one of them.
-  trace::Sample sample;
+  results::Sample sample;
   std::int64_t rows = 0;
   std::int64_t passed_over = 0;
   while (samples.pop(sample)) {
@@ -93,7 +93,7 @@ TEST_F(LatePeriods, MachineWhoseTimeGoesOnIsSentWhereItShouldBeByNow) {
 TEST_F(LatePeriods, SeveralInARowBrakeOnThePathAndEnd) {
   const MotionResult result = run([](std::int64_t n) { return n >= 150 ? 2 * kMs : 0; });
   ASSERT_EQ(result.end, MotionEnd::kTripped);
-  EXPECT_EQ(result.trip->kind, safety::Kind::kLatePeriods);
+  EXPECT_EQ(result.trip->kind, motion::Kind::kLatePeriods);
   EXPECT_EQ(result.trip->value, pace.realtime.max_late_periods);
   EXPECT_EQ(result.trip->line, 1);
   const auto x = way();
@@ -106,7 +106,7 @@ TEST_F(LatePeriods, SeveralInARowBrakeOnThePathAndEnd) {
 TEST_F(LatePeriods, AStallBrakesOnThePathAndEnds) {
   const MotionResult result = run([](std::int64_t n) { return n == 150 ? 101 * kMs : 0; });
   ASSERT_EQ(result.end, MotionEnd::kTripped);
-  EXPECT_EQ(result.trip->kind, safety::Kind::kStall);
+  EXPECT_EQ(result.trip->kind, motion::Kind::kStall);
   test::expect_within_limits(way(), 1e-3, limits, 50.0, 0.1);
 }
 
@@ -137,12 +137,12 @@ TEST_F(LatePeriods, AHookThatThrowsLeavesTheMachineOff) {
 
 TEST_F(LatePeriods, SamplesHaveTheLatencyOfTheirPeriod) {
   ASSERT_EQ(run([](std::int64_t n) { return n % 2 == 0 ? kMs / 4 : 0; }).end, MotionEnd::kDone);
-  trace::Sample first;
-  trace::Sample second;
+  results::Sample first;
+  results::Sample second;
   ASSERT_TRUE(samples.pop(first) && samples.pop(second));
   EXPECT_NEAR(first.wake_up_latency + second.wake_up_latency, 0.00025, 1e-12);
   EXPECT_NEAR(first.total_time, first.wake_up_latency, 1e-12);
 }
 
-}  // namespace
+}  // namespace late_periods_test
 }  // namespace twin::runtime

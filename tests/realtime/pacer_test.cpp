@@ -5,7 +5,7 @@
 #include "tests/realtime/fake_clock.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace pacer_test {
 
 constexpr std::int64_t kMs = 1'000'000;  // [ns]
 
@@ -91,9 +91,9 @@ TEST_F(PacerTest, OnlyLatePeriodsInARowAreAnOverrun) {
   EXPECT_FALSE(pacer.overrun());
   pacer.wait();
   ASSERT_TRUE(pacer.overrun());
-  EXPECT_EQ(pacer.overrun()->kind, safety::Kind::kLatePeriods);
+  EXPECT_EQ(pacer.overrun()->kind, motion::Kind::kLatePeriods);
   EXPECT_EQ(pacer.overrun()->value, 3.0);
-  EXPECT_EQ(pacer.overrun()->reaction, safety::Reaction::kControlled);
+  EXPECT_EQ(pacer.overrun()->reaction, motion::Reaction::kControlled);
 }
 
 TEST_F(PacerTest, OneStallIsAnOverrun) {
@@ -105,9 +105,9 @@ TEST_F(PacerTest, OneStallIsAnOverrun) {
   }
   pacer.wait();
   ASSERT_TRUE(pacer.overrun());
-  EXPECT_EQ(pacer.overrun()->kind, safety::Kind::kStall);
+  EXPECT_EQ(pacer.overrun()->kind, motion::Kind::kStall);
   EXPECT_NEAR(pacer.overrun()->value, 0.1, 1e-9);
 }
 
-}  // namespace
+}  // namespace pacer_test
 }  // namespace twin::runtime

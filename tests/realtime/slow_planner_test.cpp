@@ -16,7 +16,7 @@
 // the path and go on later; the set points of all periods, pauses included, are held against the
 // limits.
 namespace twin::runtime {
-namespace {
+namespace slow_planner_test {
 
 constexpr double kRadius = 8.0;  // [mm]
 constexpr int kArcs = 90;
@@ -89,10 +89,10 @@ struct SlowRun {
   }
 
   config::MachineFile machine_file;
-  std::array<servo::Gains, hal::kServoAxes> gains{};
+  std::array<motion::Gains, hal::kServoAxes> gains{};
   SegmentQueue segments;
   SampleQueue samples{100000};
-  interpolator::Interpolator interpolator{segments, 1e-3};
+  motion::Interpolator interpolator{segments, 1e-3};
   ReplanLink link;
   OperatorPanel panel;
   FeedControl feed{interpolator,
@@ -186,5 +186,5 @@ TEST(SlowPlanner, OperatorsOverrideAndHoldAreFollowedWhileItMoves) {
   EXPECT_GE(run.feed.records().size(), 3U);
 }
 
-}  // namespace
+}  // namespace slow_planner_test
 }  // namespace twin::runtime

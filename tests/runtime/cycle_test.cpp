@@ -6,12 +6,12 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/pacer.hpp"
 #include "runtime/segment_queue.hpp"
-#include "tests/hal/count_new.hpp"
 #include "tests/runtime/fake_machine.hpp"
 #include "tests/runtime/planned.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace cycle_test {
 
 constexpr double kPeriod = 1e-3;  // [s]
 constexpr char kProgram[] =
@@ -28,9 +28,9 @@ class CycleTest : public ::testing::Test {
   }
 
   SegmentQueue segments{100};
-  interpolator::Interpolator interpolator{segments, kPeriod};
-  std::array<servo::Gains, hal::kServoAxes> gains{};
-  trace::Sample sample;
+  motion::Interpolator interpolator{segments, kPeriod};
+  std::array<motion::Gains, hal::kServoAxes> gains{};
+  results::Sample sample;
 };
 
 TEST_F(CycleTest, AllocatesNothing) {
@@ -41,7 +41,7 @@ TEST_F(CycleTest, AllocatesNothing) {
   const std::int64_t before = hal::testing::allocations();
   bool is_fine = cycle.hold() == hal::Status::kOk;
   int periods = 0;
-  while (cycle.prepare() == interpolator::Status::kMoving) {
+  while (cycle.prepare() == motion::Status::kMoving) {
     is_fine = is_fine && cycle.exchange(sample) == hal::Status::kOk;
     ++periods;
   }
@@ -69,8 +69,7 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
     is_fine = is_fine && cycle.read(wake_up.interval) == hal::Status::kOk &&
               cycle.respond_at_rest() == hal::Status::kOk;
   }
-  while (cycle.read(kPeriod) == hal::Status::kOk &&
-         cycle.prepare() == interpolator::Status::kMoving) {
+  while (cycle.read(kPeriod) == hal::Status::kOk && cycle.prepare() == motion::Status::kMoving) {
     is_fine = is_fine && cycle.respond(sample) == hal::Status::kOk;
   }
   EXPECT_EQ(hal::testing::allocations(), before);
@@ -85,7 +84,7 @@ TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
   ASSERT_TRUE(machine.activate());
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   std::int64_t periods = 0;
-  while (cycle.prepare() == interpolator::Status::kMoving) {
+  while (cycle.prepare() == motion::Status::kMoving) {
     ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
     ASSERT_EQ(sample.encoder, sample.command.head<2>());
     ASSERT_EQ(sample.table, sample.command.head<2>());
@@ -96,7 +95,7 @@ TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
 
 TEST_F(CycleTest, WithoutAMachineOnlyTheCommandIsRecorded) {
   Cycle cycle(interpolator, nullptr, gains, kPeriod);
-  ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+  ASSERT_EQ(cycle.prepare(), motion::Status::kMoving);
   ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
   EXPECT_EQ(sample.t, 0.0);
   EXPECT_EQ(sample.command, Vec3(0.0, 0.0, 0.0));
@@ -109,7 +108,7 @@ TEST_F(CycleTest, VoltsAreTheFeedforwardOfTheIdealMachinesSpeed) {
   test::FakeMachine machine;  // reads zero counts; 100 mm/s per volt
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   for (int i = 0; i < 75; ++i) {
-    ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+    ASSERT_EQ(cycle.prepare(), motion::Status::kMoving);
     ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
   }
   ASSERT_EQ(sample.feedrate, 50.0);
@@ -121,15 +120,15 @@ TEST_F(CycleTest, HoldStaysOnThePlaceAndTakesNoTime) {
   test::FakeMachine machine;
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   for (int i = 0; i < 50; ++i) {
-    ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+    ASSERT_EQ(cycle.prepare(), motion::Status::kMoving);
     ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
   }
-  const trace::Sample before = sample;
+  const results::Sample before = sample;
   for (int i = 0; i < 3; ++i) {
     ASSERT_EQ(cycle.hold(), hal::Status::kOk);
     EXPECT_EQ(machine.references.back(), before.command);
   }
-  ASSERT_EQ(cycle.prepare(), interpolator::Status::kMoving);
+  ASSERT_EQ(cycle.prepare(), motion::Status::kMoving);
   ASSERT_EQ(cycle.exchange(sample), hal::Status::kOk);
   EXPECT_NEAR(sample.t - before.t, kPeriod, 1e-12);
 }
@@ -153,5 +152,5 @@ TEST_F(CycleTest, SaysSoWhenTheMachineCannotBeWritten) {
   EXPECT_EQ(cycle.exchange(sample), hal::Status::kError);
 }
 
-}  // namespace
+}  // namespace cycle_test
 }  // namespace twin::runtime

@@ -8,7 +8,7 @@
 #include "tests/runtime/run_fixture.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace cycle_time_test {
 
 /// Every NC program that is shipped, with every planner.
 class CycleTime : public RunProgram, public ::testing::WithParamInterface<Planner> {};
@@ -41,5 +41,5 @@ TEST_P(CycleTime, IsWhatTheRunTakesWithinAPeriod) {
 INSTANTIATE_TEST_SUITE_P(Planners, CycleTime,
                          ::testing::Values(Planner::kPaper, Planner::kCertified));
 
-}  // namespace
+}  // namespace cycle_time_test
 }  // namespace twin::runtime

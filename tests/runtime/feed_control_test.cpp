@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/hal/count_new.hpp"
 #include "tests/runtime/planned.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace feed_control_test {
 
 constexpr double kPeriod = 1e-3;  // [s]
 
@@ -20,10 +20,10 @@ class FeedControlTest : public ::testing::Test {
     segments.close();
   }
   /// One period; what it allocates is counted.
-  interpolator::Status step() {
+  motion::Status step() {
     const std::int64_t before = hal::testing::allocations();
     control.update(t, stop);
-    const interpolator::Status status = interpolator.step(point);
+    const motion::Status status = interpolator.step(point);
     control.show({});
     allocated += hal::testing::allocations() - before;
     t += kPeriod;
@@ -43,11 +43,11 @@ class FeedControlTest : public ::testing::Test {
   }
 
   SegmentQueue segments{10, 10};
-  interpolator::Interpolator interpolator{segments, kPeriod};
+  motion::Interpolator interpolator{segments, kPeriod};
   ReplanLink link;
   OperatorPanel panel;
   FeedControl control{interpolator, segments, link, panel, {{}, {2450.0, 50000.0}, kPeriod, true}};
-  interpolator::SetPoint point;
+  motion::SetPoint point;
   std::atomic<bool> stop{false};
   double t = 0.0;  // [s]
   std::int64_t allocated = 0;
@@ -86,7 +86,7 @@ TEST_F(FeedControlTest, AHoldRefusesWhatWasOfferedAndAsksFromRestAfterwards) {
   steps(1);
   panel.hold(true);
   offer_hold(1.0);
-  while (step() == interpolator::Status::kMoving) {
+  while (step() == motion::Status::kMoving) {
   }
   EXPECT_EQ(link.verdict(), false);
   EXPECT_TRUE(control.is_hold());
@@ -118,5 +118,5 @@ TEST_F(FeedControlTest, AllocatesNothing) {
   EXPECT_EQ(allocated, 0);
 }
 
-}  // namespace
+}  // namespace feed_control_test
 }  // namespace twin::runtime

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <thread>
 
-#include "metrics/limit_audit.hpp"
+#include "results/metrics/limit_audit.hpp"
 #include "runtime/feed_control.hpp"
 #include "runtime/program_planner.hpp"
 
@@ -28,18 +28,18 @@ double distance_to_chord(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - share * d).norm();
 }
 
-metrics::AuditPeaks audit(const OverrideRun& run, const config::MachineFile& machine) {
-  metrics::LimitAudit audit(machine.period, machine.limits);
-  for (const trace::Sample& sample : run.samples) {
+results::AuditPeaks audit(const OverrideRun& run, const config::MachineFile& machine) {
+  results::LimitAudit audit(machine.period, machine.limits);
+  for (const results::Sample& sample : run.samples) {
     audit.add(sample.command);
   }
   return audit.finish();
 }
 
-void raise(const metrics::AuditPeaks& to, metrics::AuditPeaks& peaks) {
+void raise(const results::AuditPeaks& to, results::AuditPeaks& peaks) {
   for (const auto member :
-       {&metrics::AuditPeaks::feedrate, &metrics::AuditPeaks::tangential_acceleration,
-        &metrics::AuditPeaks::tangential_jerk, &metrics::AuditPeaks::normal_acceleration}) {
+       {&results::AuditPeaks::feedrate, &results::AuditPeaks::tangential_acceleration,
+        &results::AuditPeaks::tangential_jerk, &results::AuditPeaks::normal_acceleration}) {
     peaks.*member = std::max(peaks.*member, to.*member);
   }
 }
@@ -51,7 +51,7 @@ OverrideRun run_with_overrides(const std::string& text, const config::MachineFil
   auto reader = gcode::Reader::from_text(text, "text");
   const auto look_ahead = static_cast<std::size_t>(machine.path.look_ahead);
   runtime::SegmentQueue segments(look_ahead, look_ahead + 2);
-  interpolator::Interpolator interpolator(segments, machine.period, machine.interpolation);
+  motion::Interpolator interpolator(segments, machine.period, machine.interpolation);
   runtime::ReplanLink link;
   runtime::OperatorPanel panel;
   const Limits& limits = machine.limits;
@@ -77,7 +77,7 @@ OverrideRun run_with_overrides(const std::string& text, const config::MachineFil
     segments.stop();
   }
   run.records = feed.records();
-  trace::Sample sample;
+  results::Sample sample;
   while (samples.pop(sample)) {
     run.samples.push_back(sample);
   }
@@ -92,7 +92,7 @@ PlainRun run_plain(const std::string& text, const config::MachineFile& machine) 
   }
   config::MachineFile fine = machine;
   fine.period = kFinePeriod;
-  for (const trace::Sample& sample : run_with_overrides(text, fine, {}).samples) {
+  for (const results::Sample& sample : run_with_overrides(text, fine, {}).samples) {
     plain.path.push_back(sample.command);
   }
   return plain;
@@ -100,9 +100,9 @@ PlainRun run_plain(const std::string& text, const config::MachineFile& machine) 
 
 namespace {
 
-void expect_limits_kept(const OverrideRun& run, const metrics::AuditPeaks& before,
+void expect_limits_kept(const OverrideRun& run, const results::AuditPeaks& before,
                         const config::MachineFile& machine) {
-  const metrics::AuditPeaks peaks = audit(run, machine);
+  const results::AuditPeaks peaks = audit(run, machine);
   const Limits& limits = machine.limits;
   const auto allowed = [](double limit, double was) { return kExcess * std::max(limit, was); };
   EXPECT_LE(peaks.tangential_acceleration,
@@ -121,7 +121,7 @@ void expect_same_path_within_limits(const OverrideRun& run, const PlainRun& plai
   ASSERT_EQ(run.samples.back().feedrate, 0.0);
   expect_limits_kept(run, plain.peaks, machine);
   std::size_t at = 0;  // chord of the path
-  for (const trace::Sample& sample : run.samples) {
+  for (const results::Sample& sample : run.samples) {
     const Vec3& p = sample.command;
     const std::size_t last = std::min(at + 5000, plain.path.size() - 1);
     std::size_t i = at;

@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
-#include "metrics/limit_audit.hpp"
-#include "metrics/override_record.hpp"
+#include "results/metrics/limit_audit.hpp"
+#include "results/metrics/override_record.hpp"
+#include "results/trace/sample.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/override_schedule.hpp"
-#include "trace/sample.hpp"
 
 namespace twin::test {
 
 /// What became of a program that was followed in lockstep under a schedule of overrides.
 struct OverrideRun {
-  std::vector<trace::Sample> samples;
-  std::vector<metrics::OverrideRecord> records;
+  std::vector<results::Sample> samples;
+  std::vector<results::OverrideRecord> records;
   runtime::MotionEnd end = runtime::MotionEnd::kDone;
 };
 
@@ -26,7 +26,7 @@ OverrideRun run_with_overrides(const std::string& text, const config::MachineFil
 /// What a run with overrides is held against: the same program without.
 struct PlainRun {
   OverrideRun run;
-  metrics::AuditPeaks peaks;  ///< largest over the phases that set points can have to the path
+  results::AuditPeaks peaks;  ///< largest over the phases that set points can have to the path
   std::vector<Vec3> path;     ///< its path, a few micrometres from point to point [mm]
 };
 PlainRun run_plain(const std::string& text, const config::MachineFile& machine);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace twin::runtime {
-namespace {
+namespace override_schedule_test {
 
 using ::testing::HasSubstr;
 
@@ -34,5 +34,5 @@ TEST(OverrideSchedule, WhatIsWrongIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace override_schedule_test
 }  // namespace twin::runtime

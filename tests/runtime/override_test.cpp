@@ -9,7 +9,7 @@
 // Feed override and hold in simulated time: the set points keep every limit and the path, whatever
 // the schedule.
 namespace twin::runtime {
-namespace {
+namespace override_test {
 
 using test::expect_same_path_within_limits;
 using test::OverrideRun;
@@ -67,7 +67,7 @@ TEST_P(Override, HalvesAndDoublesTheFeedrateOnALongLine) {
 TEST_P(Override, ARapidIsNeverFasterThanItsOwnFeedrate) {
   const auto rapid = run_with_overrides("G00 X100\n", machine, {{0.0, 200.0}});
   double peak = 0.0;
-  for (const trace::Sample& sample : rapid.samples) {
+  for (const results::Sample& sample : rapid.samples) {
     peak = std::max(peak, sample.feedrate);
   }
   EXPECT_NEAR(peak, machine.limits.rapid_feedrate, 1e-9);
@@ -150,8 +150,8 @@ TEST(OverrideOfEachAxis, KeepsTheLimitsOfEachAxis) {
     }
     schedule.push_back({4.0, 100.0});
     const auto run = run_with_overrides(text, machine, schedule);
-    metrics::LimitAudit audit(machine.period, machine.limits);
-    for (const trace::Sample& sample : run.samples) {
+    results::LimitAudit audit(machine.period, machine.limits);
+    for (const results::Sample& sample : run.samples) {
       audit.add(sample.command);
     }
     const auto peaks = audit.finish();
@@ -169,5 +169,5 @@ INSTANTIATE_TEST_SUITE_P(Planners, Override,
                            return which.param == Planner::kPaper ? "Paper" : "Certified";
                          });
 
-}  // namespace
+}  // namespace override_test
 }  // namespace twin::runtime

@@ -9,7 +9,7 @@
 #include "tests/runtime/planned.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace planning_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -139,5 +139,5 @@ TEST(Planning, PassesOnTheReadersError) {
   EXPECT_EQ(figures.error().line, 2);
 }
 
-}  // namespace
+}  // namespace planning_test
 }  // namespace twin::runtime

@@ -9,7 +9,7 @@
 #include "runtime/planning.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace program_bound_test {
 
 /// Every program of the project, with a planner and a curve kind.
 class ProgramBound : public testing::TestWithParam<Planner> {};
@@ -39,5 +39,5 @@ INSTANTIATE_TEST_SUITE_P(OfEveryPlanner, ProgramBound,
                            return test.param == Planner::kPaper ? "paper" : "certified";
                          });
 
-}  // namespace
+}  // namespace program_bound_test
 }  // namespace twin::runtime

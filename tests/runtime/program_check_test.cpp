@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
-#include "tests/runtime/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace program_check_test {
 
 using ::testing::HasSubstr;
 
@@ -126,5 +126,5 @@ TEST_F(ProgramCheck, BoxOfRandomArcsIsThatOfTheirPoints) {
   }
 }
 
-}  // namespace
+}  // namespace program_check_test
 }  // namespace twin::runtime

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/runtime/temp_folder.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace recorder_test {
 
 using ::testing::StartsWith;
 
@@ -31,7 +31,7 @@ class RecorderTest : public ::testing::Test {
   /// 11 samples, 1 mm apart; the encoder is beside the line by error(i) and behind by 0.25 mm.
   void record(const std::function<double(int)>& error) {
     for (int i = 0; i <= 10; ++i) {
-      trace::Sample sample;
+      results::Sample sample;
       sample.t = 0.001 * i;
       sample.line = 1;
       sample.command = {static_cast<double>(i), 0.0, 0.0};
@@ -76,7 +76,7 @@ TEST_F(RecorderTest, PlanHasTheFirstSevenColumns) {
   EXPECT_THAT(test::content(folder / "trace.csv"),
               StartsWith("t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s\n"
                          "0,0,1,0,0,0,0\n"));
-  metrics::Summary summary;
+  results::Summary summary;
   recorder->summarise(summary);
   EXPECT_FALSE(summary.run);
 }
@@ -85,7 +85,7 @@ TEST_F(RecorderTest, FiguresAreThoseOfTheErrorsThatWentIn) {
   create(true);
   const auto error = [](int i) { return i % 2 == 0 ? 0.003 : -0.001; };
   record(error);
-  metrics::Summary summary;
+  results::Summary summary;
   recorder->summarise(summary);
   ASSERT_TRUE(summary.run);
   // 6 samples of 3 um and 5 of 1 um; the first lies 0.25 mm before the path begins.
@@ -111,5 +111,5 @@ TEST_F(RecorderTest, RefusesAFolderThatIsNotThere) {
   EXPECT_EQ(created.error().code, ErrorCode::kFile);
 }
 
-}  // namespace
+}  // namespace recorder_test
 }  // namespace twin::runtime

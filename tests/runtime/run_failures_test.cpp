@@ -11,7 +11,7 @@
 
 // What throws or trips in a run: the machine is off, the trace is kept, the run says why.
 namespace twin::runtime {
-namespace {
+namespace run_failures_test {
 
 using ::testing::HasSubstr;
 
@@ -78,7 +78,7 @@ TEST_F(RunProgram, WallClockHasItsFiguresAndLockstepHasNone) {
   const auto wall_clock = run(&machine);
   ASSERT_TRUE(wall_clock && !wall_clock->failure);
   ASSERT_TRUE(wall_clock->summary.run->realtime);
-  const metrics::RealTimeFigures& figures = *wall_clock->summary.run->realtime;
+  const results::RealTimeFigures& figures = *wall_clock->summary.run->realtime;
   EXPECT_LE(figures.wake_up.p50, figures.wake_up.p99);
   EXPECT_LE(figures.wake_up.p99, figures.wake_up.p999);
   EXPECT_LE(figures.wake_up.p999, figures.wake_up.max);
@@ -105,5 +105,5 @@ TEST_F(RunProgram, TripIsTheFailureAndKeepsTheTrace) {
   EXPECT_EQ(rows.last("x_drive_V"), 0.0);
 }
 
-}  // namespace
+}  // namespace run_failures_test
 }  // namespace twin::runtime

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "runtime/run.hpp"
-#include "tests/runtime/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::runtime {
 

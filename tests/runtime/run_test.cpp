@@ -12,10 +12,10 @@
 #include "tests/runtime/fake_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/runtime/trace_rows.hpp"
-#include "tests/trace/files.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::runtime {
-namespace {
+namespace run_test {
 
 using ::testing::HasSubstr;
 
@@ -35,7 +35,7 @@ TEST_F(RunProgram, IdealMachineHasTheErrorOfTheCommandAlone) {
   const auto result = run(&machine);
   ASSERT_TRUE(result) << to_string(result.error());
   ASSERT_FALSE(result->failure);
-  const metrics::Summary& summary = result->summary;
+  const results::Summary& summary = result->summary;
   ASSERT_TRUE(summary.run);
   EXPECT_EQ(summary.hal, "ideal");
   EXPECT_EQ(summary.blocks.total, 4);
@@ -188,5 +188,5 @@ TEST_F(RunProgram, TraceThatCannotBeWrittenStopsTheMachineAtRest) {
   EXPECT_LT((machine.references[n - 1] - machine.references[n - 2]).norm(), 1e-3);
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace twin::runtime

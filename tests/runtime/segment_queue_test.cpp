@@ -6,7 +6,7 @@
 #include <thread>
 
 namespace twin::runtime {
-namespace {
+namespace segment_queue_test {
 
 feedrate::PlannedSegment segment(std::int64_t index, double length = 1.0) {
   feedrate::PlannedSegment planned;
@@ -171,5 +171,5 @@ TEST(SegmentQueue, AnotherPlanPassesOverWhatIsLeftOfTheOneBefore) {
   }
 }
 
-}  // namespace
+}  // namespace segment_queue_test
 }  // namespace twin::runtime

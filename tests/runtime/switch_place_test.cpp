@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace twin::runtime {
-namespace {
+namespace switch_place_test {
 
 using feedrate::Phase;
 
@@ -56,5 +56,5 @@ TEST(SwitchPlace, OfARestIsItsEnd) {
   EXPECT_EQ(place->v, 0.0);
 }
 
-}  // namespace
+}  // namespace switch_place_test
 }  // namespace twin::runtime

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/limits.hpp"
-#include "trace/csv_reader.hpp"
+#include "results/trace/csv_reader.hpp"
 
 namespace twin::test {
 
@@ -16,7 +16,7 @@ namespace twin::test {
 class TraceRows {
  public:
   explicit TraceRows(const std::filesystem::path& file) {
-    auto reader = trace::CsvReader::open(file);
+    auto reader = results::CsvReader::open(file);
     EXPECT_TRUE(reader) << (reader ? "" : to_string(reader.error()));
     if (!reader) {
       return;

@@ -16,9 +16,9 @@ constexpr std::uint32_t kClearFifo = 0x09;
 constexpr std::uint32_t kDac0 = 0x0A;
 constexpr std::uint32_t kDac1 = 0x0C;
 constexpr std::uint32_t kDacRange = 0x0E;
-constexpr std::uint32_t kDigital = 0x10;
+constexpr std::uint32_t kDigitalIo = 0x10;
 constexpr std::uint32_t kBoardId = 0x14;
-constexpr std::uint32_t kSize = 0x20;
+constexpr std::uint32_t kPci1716Bytes = 0x20;
 
 constexpr std::uint16_t kSoftwareTrigger = 0x0001;
 constexpr std::uint16_t kControlBits = 0x007F;
@@ -26,7 +26,7 @@ constexpr std::uint16_t kDifferential = 0x20;
 constexpr std::uint16_t kFifoEmpty = 0x0100;
 constexpr std::uint16_t kFifoHalfFull = 0x0200;
 constexpr std::uint16_t kFifoFull = 0x0400;
-constexpr std::uint16_t kAllOnes = 0xFFFF;
+constexpr std::uint16_t kAllOnes16 = 0xFFFF;
 
 /// Voltage that a channel sees [V]; a differential one sees that of its pair, even less odd.
 double input_volts(const Pci1716Registers& card, std::size_t channel, std::uint16_t gain) noexcept {
@@ -83,18 +83,18 @@ void EmulatedPci1716::clear_fifo() noexcept { card_.ad_tail.store(card_.ad_head.
 
 std::uint16_t EmulatedPci1716::read16(std::uint32_t offset) noexcept {
   if (!card_.is_present.load(std::memory_order_acquire)) {
-    return kAllOnes;
+    return kAllOnes16;
   }
-  if (offset % 2 != 0 || offset >= kSize) {
+  if (offset % 2 != 0 || offset >= kPci1716Bytes) {
     ++rejected_;
-    return kAllOnes;
+    return kAllOnes16;
   }
   switch (offset) {
     case kAdData:
       return take_sample();
     case kControl:
       return status();
-    case kDigital:
+    case kDigitalIo:
       return card_.digital_in.load(std::memory_order_acquire);
     case kBoardId:
       return static_cast<std::uint16_t>((junk(offset) & 0xFFF0) | (card_.board_id.load() & 0xF));
@@ -107,7 +107,7 @@ void EmulatedPci1716::write16(std::uint32_t offset, std::uint16_t value) noexcep
   if (!card_.is_present.load(std::memory_order_acquire)) {
     return;
   }
-  if (offset % 2 != 0 || offset >= kSize) {
+  if (offset % 2 != 0 || offset >= kPci1716Bytes) {
     ++rejected_;
     return;
   }
@@ -128,7 +128,7 @@ void EmulatedPci1716::write16(std::uint32_t offset, std::uint16_t value) noexcep
       return card_.dac[1].store(value, std::memory_order_release);
     case kDacRange:
       return card_.dac_range.store(value, std::memory_order_release);
-    case kDigital:
+    case kDigitalIo:
       return card_.digital_out.store(value, std::memory_order_release);
     default:
       return;

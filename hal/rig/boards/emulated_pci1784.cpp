@@ -11,18 +11,18 @@ constexpr std::uint32_t kCountersEnd = 0x10;  // modes when written, latched val
 constexpr std::uint32_t kInterrupt = 0x20;    // enables when written, status when read
 constexpr std::uint32_t kClock = 0x24;        // read: clears the status
 constexpr std::uint32_t kLatch = 0x28;        // read: board ID
-constexpr std::uint32_t kDigital = 0x30;
+constexpr std::uint32_t kDigitalIn = 0x30;
 constexpr std::uint32_t kDigitalMode = 0x32;  // a word
-constexpr std::uint32_t kSize = 0x40;
+constexpr std::uint32_t kPci1784Bytes = 0x40;
 
 constexpr std::uint32_t kSoftwareLatch = 0x100;  // of the mode
 constexpr std::uint32_t kMaster = 0x80000000;    // of the interrupt registers
-constexpr std::uint32_t kAllOnes = 0xFFFFFFFF;
+constexpr std::uint32_t kAllOnes32 = 0xFFFFFFFF;
 
 }  // namespace
 
 bool EmulatedPci1784::rejects(std::uint32_t offset) noexcept {
-  if (offset % 4 == 0 && offset < kSize) {
+  if (offset % 4 == 0 && offset < kPci1784Bytes) {
     return false;
   }
   ++rejected_;
@@ -57,7 +57,7 @@ void EmulatedPci1784::reset(std::uint32_t value) noexcept {
 
 std::uint32_t EmulatedPci1784::read32(std::uint32_t offset) noexcept {
   if (!card_.is_present.load(std::memory_order_acquire) || rejects(offset)) {
-    return kAllOnes;
+    return kAllOnes32;
   }
   if (offset < kCountersEnd) {
     return card_.latched[offset / 4].load(std::memory_order_acquire);
@@ -70,7 +70,7 @@ std::uint32_t EmulatedPci1784::read32(std::uint32_t offset) noexcept {
       return junk32(offset);
     case kLatch:
       return (junk32(offset) & ~0xFU) | (card_.board_id.load() & 0xFU);
-    case kDigital:
+    case kDigitalIn:
       return (junk32(offset) & ~0xF0U) | (card_.digital_in.load() & 0xFU) << 4;
     default:
       return junk32(offset);
@@ -97,7 +97,7 @@ void EmulatedPci1784::write32(std::uint32_t offset, std::uint32_t value) noexcep
       return card_.clock_control.store(value);
     case kLatch:
       return latch(value);
-    case kDigital:
+    case kDigitalIn:
       return card_.digital_out.store(value);
     default:
       return;

@@ -4,7 +4,7 @@ namespace twin::hal::rig {
 namespace {
 
 // A try fails only when a change begins during its few loads.
-constexpr int kTries = 10'000;
+constexpr int kMostReads = 10'000;
 
 void store(std::array<std::atomic<std::uint32_t>, 4>& copy, const CounterValues& values) noexcept {
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -17,7 +17,7 @@ void store(std::array<std::atomic<std::uint32_t>, 4>& copy, const CounterValues&
 
 CounterValues running_counters(const Pci1784Registers& card) noexcept {
   CounterValues values{};
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < kMostReads; ++i) {
     const std::uint32_t before = card.sequence.load(std::memory_order_acquire);
     for (std::size_t c = 0; c < values.size(); ++c) {
       values[c] = card.running[before & 1][c].load(std::memory_order_acquire);

@@ -28,7 +28,7 @@ static_assert(std::atomic<double>::is_always_lock_free && std::atomic<float>::is
               std::atomic<std::uint64_t>::is_always_lock_free);
 
 constexpr mode_t kOwnerOnly = 0600;
-constexpr int kTries = 20;  // against processes that come and go at the same time
+constexpr int kMostAttempts = 20;  // against processes that come and go at the same time
 constexpr const char* kStart = "start one with 'twin rig emulate'";
 
 tl::unexpected<Error> refused(const std::string& name, const char* what) {
@@ -131,7 +131,7 @@ SharedRegisters::SharedRegisters(std::string name, int file, SharedBlock* block,
 
 Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::create(const std::string& name) {
   int locked = -1;
-  for (int i = 0; i < kTries && locked < 0; ++i) {
+  for (int i = 0; i < kMostAttempts && locked < 0; ++i) {
     locked = lock_new(name);
     if (locked < 0 && errno != EEXIST && errno != EWOULDBLOCK && errno != ENOENT) {
       return refused(name, "made");

@@ -1,0 +1,170 @@
+#include "core/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+namespace twin {
+namespace {
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) {
+    words.push_back(word);
+  }
+  return words;
+}
+
+/// A heading in lines no wider than `width`.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+  std::vector<std::string> lines;
+  for (const std::string& word : words_of(text)) {
+    if (!lines.empty() && lines.back().size() + 1 + word.size() <= width) {
+      lines.back() += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
+/// Widths of the columns: of their cells and of the longest word of their headings.
+std::vector<std::size_t> column_widths(const TextTable& table) {
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < table.head.size(); ++i) {
+    std::size_t width = 5;
+    for (const std::string& word : words_of(table.head[i])) {
+      width = std::max(width, word.size());
+    }
+    for (const Line& line : table.lines) {
+      width = std::max(width, line.cells[i].text.size());
+    }
+    widths.push_back(width);
+  }
+  return widths;
+}
+
+/// Width of the two columns in front.
+std::size_t front_width(const TextTable& table, std::string Line::*field) {
+  std::size_t width = 0;
+  for (const Line& line : table.lines) {
+    width = std::max(width, (line.*field).size());
+  }
+  return width;
+}
+
+std::string without_trailing_space(std::string text) {
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + "\n";
+}
+
+std::string text_head(const TextTable& table, const std::vector<std::size_t>& widths,
+                      std::size_t indent) {
+  std::vector<std::vector<std::string>> heads;
+  std::size_t height = 0;
+  for (std::size_t i = 0; i < table.head.size(); ++i) {
+    heads.push_back(wrapped(table.head[i], widths[i]));
+    height = std::max(height, heads.back().size());
+  }
+  std::string text;
+  for (std::size_t row = 0; row < height; ++row) {
+    std::string line(indent, ' ');
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      const std::size_t skipped = height - heads[i].size();
+      line += fmt::format(" {:>{}} ", row < skipped ? "" : heads[i][row - skipped], widths[i]);
+    }
+    text += without_trailing_space(line);
+  }
+  return text;
+}
+
+constexpr std::array<std::string_view, 5> kClasses{"", "w10", "w20", "w30", "out"};
+
+}  // namespace
+
+std::string to_text(const TextTable& table) {
+  const auto widths = column_widths(table);
+  const std::size_t row_width = front_width(table, &Line::row);
+  const std::size_t what_width = front_width(table, &Line::what);
+  std::string text = table.title + "\n";
+  text += text_head(table, widths, row_width + 2 + what_width);
+  for (const Line& line : table.lines) {
+    std::string out = fmt::format("{:<{}}  {:<{}}", line.row, row_width, line.what, what_width);
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      const Cell& cell = line.cells[i];
+      out +=
+          fmt::format(" {:>{}}{}", cell.text, widths[i], cell.mark == Mark::kOutside ? '!' : ' ');
+    }
+    text += without_trailing_space(out);
+  }
+  return text;
+}
+
+std::string to_markdown(const TextTable& table) {
+  std::string text = fmt::format("## {}\n\n| | |", table.title);
+  std::string rule = "| --- | --- |";
+  for (const std::string& head : table.head) {
+    text += fmt::format(" {} |", head);
+    rule += " ---: |";
+  }
+  text += table.note_head.empty() ? "\n" : fmt::format(" {} |\n", table.note_head);
+  text += rule + (table.note_head.empty() ? "\n" : " --- |\n");
+  for (const Line& line : table.lines) {
+    text += fmt::format("| {} | {} |", line.row, line.what);
+    for (const Cell& cell : line.cells) {
+      const std::string_view bold = cell.mark == Mark::kOutside ? "**" : "";
+      text += fmt::format(" {}{}{} |", bold, cell.text, bold);
+    }
+    text += table.note_head.empty() ? "\n" : fmt::format(" {} |\n", line.note);
+  }
+  return text + "\n";
+}
+
+std::string escape_html(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string to_html(const TextTable& table) {
+  std::string text =
+      fmt::format("<h2>{}</h2>\n<table>\n<tr><th></th><th></th>", escape_html(table.title));
+  for (const std::string& head : table.head) {
+    text += fmt::format("<th>{}</th>", escape_html(head));
+  }
+  text += "<th></th></tr>\n";
+  for (const Line& line : table.lines) {
+    text += fmt::format("<tr{}><th>{}</th><td class=\"what\">{}</td>",
+                        line.row.empty() ? "" : " class=\"first\"", escape_html(line.row),
+                        escape_html(line.what));
+    for (const Cell& cell : line.cells) {
+      text += fmt::format("<td class=\"{}\">{}</td>", kClasses[static_cast<std::size_t>(cell.mark)],
+                          escape_html(cell.text));
+    }
+    text += fmt::format("<td class=\"note\">{}{}</td></tr>\n",
+                        line.note.empty() ? "" : table.note_head + ": ", escape_html(line.note));
+  }
+  return text + "</table>\n";
+}
+
+}  // namespace twin

@@ -1,0 +1,177 @@
+#include "feedrate/bound/time_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "feedrate/bound/reach.hpp"
+
+namespace twin::feedrate {
+namespace {
+
+constexpr double kSameTime = 3e-4;  // change of time below which a grid is fine enough [-]
+constexpr int kMostHalvings = 6;
+
+/// The geometry of a segment without its blocks.
+path::Segment bare(const path::Segment& segment) {
+  path::Segment copy;
+  copy.geometry = segment.geometry;
+  copy.length = segment.length;
+  copy.feedrate = segment.feedrate;
+  copy.begin = segment.begin;
+  copy.end = segment.end;
+  return copy;
+}
+
+}  // namespace
+
+TimeBound::TimeBound(const Limits& limits, const PlanningModel& model, const PathSettings& path,
+                     double period, Profile profile)
+    : limits_(limits), rules_(limits, model, path, period), profile_(std::move(profile)) {}
+
+void TimeBound::add(const feedrate::PlannedSegment& planned) {
+  const path::Segment& segment = planned.segment;
+  if (segment.length <= 0.0) {
+    time_ += segment.dwell;
+    if (!pieces_.empty()) {
+      pieces_.back().end_cap = 0.0;
+    }
+    return;
+  }
+  Piece piece{bare(segment), segment.stops_at_end ? 0.0 : kNoCap};
+  for (const feedrate::LimitZone& zone : planned.limits) {
+    if (zone.begin == zone.end) {  // a corner: of this segment's end, or of its begin
+      const double q = zone.limit * zone.limit;
+      const bool is_begin = zone.end < 0.5 * segment.length;
+      if (!is_begin) {
+        piece.end_cap = std::min(piece.end_cap, q);
+      } else if (!pieces_.empty()) {
+        pieces_.back().end_cap = std::min(pieces_.back().end_cap, q);
+      }
+    }
+  }
+  pieces_.push_back(std::move(piece));
+  if (pieces_.size() >= next_look_) {
+    settle(false);
+  }
+}
+
+double TimeBound::finish() {
+  if (!pieces_.empty()) {
+    settle(true);
+  }
+  return time_;
+}
+
+/// Cells of the first pieces, and the cap of each place between them.
+void TimeBound::make_grid(std::size_t pieces, const Fineness& fineness, Pass& pass) const {
+  pass.cells.clear();
+  pass.first.assign(1, 0);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    append_cells(pieces_[i].segment, rules_, limits_, fineness, pass.cells);
+    pass.first.push_back(pass.cells.size());
+  }
+  const std::size_t n = pass.cells.size();
+  pass.node.assign(n + 1, kNoCap);
+  for (std::size_t i = 0; i < n; ++i) {
+    pass.node[i] = std::min(pass.node[i], pass.cells[i].cap);
+    pass.node[i + 1] = pass.cells[i].cap;
+  }
+  for (std::size_t i = 0; i < pieces; ++i) {
+    double& cap = pass.node[pass.first[i + 1]];
+    cap = std::min(cap, pieces_[i].end_cap);
+  }
+}
+
+/// Lowers each place to the largest q from which the rest can be kept.
+void TimeBound::run_backward(double end, Pass& pass) {
+  pass.node.back() = std::min(pass.node.back(), end);
+  for (std::size_t i = pass.cells.size(); i-- > 0;) {
+    pass.node[i] = std::min(pass.node[i], largest_begin(pass.cells[i], pass.node[i + 1]));
+  }
+}
+
+/// Forward pass: the time until the begin of a piece [s]; pass.node then has the q reached.
+double TimeBound::time_until(std::size_t piece, Pass& pass) const {
+  double time = 0.0;
+  pass.node[0] = std::min(pass.node[0], start_);
+  for (std::size_t i = 0; i < pass.first[piece]; ++i) {
+    pass.node[i + 1] = largest_end(pass.cells[i], pass.node[i], pass.node[i + 1]);
+    time += cell_time(pass.cells[i], pass.node[i], pass.node[i + 1]);
+  }
+  return time;
+}
+
+/// The last piece whose begin does not depend on what follows the last one; 0: none. The pass is
+/// left as from the cap at the end.
+std::size_t TimeBound::settled_piece(Pass& pass) const {
+  Pass from_rest = pass;
+  run_backward(0.0, from_rest);
+  run_backward(kNoCap, pass);
+  for (std::size_t i = pass.first.size() - 1; i > 0; --i) {
+    if (pass.node[pass.first[i]] == from_rest.node[pass.first[i]]) {
+      return i;
+    }
+  }
+  return 0;
+}
+
+void TimeBound::report(std::size_t piece, const Pass& pass) {
+  double s = s_;
+  for (std::size_t i = 0; i < pass.first[piece]; ++i) {
+    const Cell& cell = pass.cells[i];
+    const double q0 = pass.node[i];
+    const double q1 = pass.node[i + 1];
+    profile_(s, std::sqrt(q0));
+    if (!is_linear(cell, q0, q1)) {
+      const double peak = cell_peak(cell, q0, q1);
+      profile_(s + (peak - q0) / (2.0 * cell.acceleration), std::sqrt(peak));
+      profile_(s + cell.length - (peak - q1) / (2.0 * cell.acceleration), std::sqrt(peak));
+    }
+    s += cell.length;
+    profile_(s, std::sqrt(q1));
+  }
+}
+
+void TimeBound::settle(bool is_last) {
+  Fineness fineness;
+  Pass pass;
+  make_grid(pieces_.size(), fineness, pass);
+  std::size_t until = pieces_.size();
+  if (is_last) {
+    run_backward(0.0, pass);
+  } else {
+    until = settled_piece(pass);
+    if (until == 0 && pieces_.size() < kMostSegments) {
+      next_look_ = 2 * pieces_.size();
+      return;
+    }
+    until = until == 0 ? pieces_.size() / 2 : until;
+  }
+  const double end = pass.node[pass.first[until]];
+  double time = time_until(until, pass);
+  double fall = 0.0;  // of the time from the last grid but one to the last
+  for (int i = 0; i < kMostHalvings; ++i) {
+    const double coarse = time;
+    fineness = fineness.halved();
+    make_grid(until, fineness, pass);
+    run_backward(end, pass);
+    time = time_until(until, pass);
+    fall = std::max(coarse - time, 0.0);
+    if (std::abs(time - coarse) <= kSameTime * time) {
+      break;
+    }
+  }
+  if (profile_) {
+    report(until, pass);
+  }
+  time_ += time - fall;
+  start_ = pass.node[pass.first[until]];
+  for (std::size_t i = 0; i < until; ++i) {
+    s_ += pieces_[i].segment.length;
+  }
+  pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(until));
+  next_look_ = pieces_.size() + kWindow;
+}
+
+}  // namespace twin::feedrate

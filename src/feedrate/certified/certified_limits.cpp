@@ -1,0 +1,191 @@
+#include "feedrate/certified/certified_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "feedrate/limits/axis_limits.hpp"
+#include "feedrate/limits/chord_limit.hpp"
+#include "feedrate/limits/segment_limits.hpp"
+#include "feedrate/limits/zone_row.hpp"
+
+namespace twin::feedrate {
+namespace {
+
+constexpr double kBetweenSamples = 1.003;  // curvature between two samples over that at them
+constexpr double kTwistMargin = 1.05;      // of the third derivative, beside its bulge
+constexpr double kValley = 0.5;            // of a bend's peak curvature, where it ends
+constexpr double kBesideBend = 0.01;       // of a bend's peak curvature, beside it
+constexpr int kArcParts = 48;              // of an arc, where axes have limits of their own
+
+PlanningModel with_circular_error(PlanningModel model, double error) {
+  model.circular_error = std::max(model.circular_error, error);
+  return model;
+}
+
+/// Derivatives of a curve by arc length, axis by axis.
+struct ByArcLength {
+  Vec3 first, second, third;
+};
+
+ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
+  const double square = std::max(at.first.squaredNorm(), 1e-300);
+  const double u1 = 1.0 / std::sqrt(square);
+  const double mixed = at.first.dot(at.second);
+  const double u2 = -mixed / (square * square);
+  const double u3 = (4.0 * mixed * mixed / square - at.second.squaredNorm() - at.first.dot(third)) /
+                    (square * square) * u1;
+  return {u1 * at.first, (u1 * u1) * at.second + u2 * at.first,
+          (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
+}
+
+/// Bounds between two places a, b with c between them: the third derivative is at most as far
+/// beyond the three as the middle one is off the mean of the others, each lower one at most as far
+/// from its value at the nearer place as the next one makes it.
+PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByArcLength& b,
+                          double length) {
+  const auto largest = [](const Vec3& x, const Vec3& y, const Vec3& z) -> Vec3 {
+    return x.cwiseAbs().cwiseMax(y.cwiseAbs()).cwiseMax(z.cwiseAbs());
+  };
+  PathBounds bounds;
+  const Vec3 bulge = (c.third - 0.5 * (a.third + b.third)).cwiseAbs();
+  bounds.twist = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
+  bounds.curvature = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist;
+  bounds.tangent = (largest(a.first, c.first, b.first) + 0.25 * length * bounds.curvature)
+                       .cwiseMin(Vec3::Ones());
+  return bounds;
+}
+
+}  // namespace
+
+CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& model,
+                                 const PathSettings& path, double period)
+    : limits_(limits),
+      lasting_(limits, model, path, period),
+      brief_(limits, with_circular_error(model, model.corner_error), path, period),
+      chord_error_(path.chord_error),
+      period_(period),
+      corner_error_(model.corner_error),
+      has_axis_limits_(has_axis_limits(limits)) {}
+
+double CertifiedLimits::limit_at(const Interval& interval, double feedrate, bool is_fitted) const {
+  const LocalGeometry at{interval.curvature};
+  const double by_rule = interval.is_brief ? brief_.limit_at(at, feedrate, is_fitted)
+                                           : lasting_.limit_at(at, feedrate, is_fitted);
+  double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
+  if (at.curvature > 0.0) {
+    limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
+  }
+  return limit;
+}
+
+void CertifiedLimits::take_intervals(const path::FittedCurve& curve) {
+  intervals_.clear();
+  for (std::size_t i = 1; i < curve.curvature.size(); ++i) {
+    const geometry::CurvatureSample& a = curve.curvature[i - 1];
+    const geometry::CurvatureSample& b = curve.curvature[i];
+    intervals_.push_back(
+        {a.s, b.s, kBetweenSamples * std::max(a.curvature, b.curvature), false, false});
+  }
+}
+
+/// Marks the intervals of bends that are no more than a rounded corner. A bend that is cut by an
+/// end of the curve lasts.
+void CertifiedLimits::find_brief_bends() {
+  std::size_t begin = 0;
+  while (begin < intervals_.size()) {
+    double peak = intervals_[begin].curvature;
+    double turn = 0.0;
+    double least = std::numeric_limits<double>::infinity();  // since the bend has fallen to half
+    std::size_t end = begin;
+    for (; end < intervals_.size(); ++end) {
+      const double k = intervals_[end].curvature;
+      if (k <= kValley * peak) {
+        least = std::min(least, k);
+      }
+      if (k * kValley > least) {
+        break;
+      }
+      peak = std::max(peak, k);
+      turn += k * (intervals_[end].end - intervals_[end].begin);
+    }
+    const bool is_cut = (begin == 0 && intervals_[begin].curvature > kValley * peak) ||
+                        (end == intervals_.size() && intervals_.back().curvature > kValley * peak);
+    const bool is_brief = !is_cut && turn < 0.9 * std::numbers::pi &&
+                          1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
+    for (std::size_t i = begin; i < end; ++i) {
+      intervals_[i].is_brief = is_brief;
+      intervals_[i].is_held = is_brief && i > begin && intervals_[i].curvature > kBesideBend * peak;
+    }
+    begin = end;
+  }
+}
+
+void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
+                                   std::vector<LimitZone>& zones) {
+  take_intervals(curve);
+  if (!curve.is_programmed) {
+    find_brief_bends();
+  }
+  ZoneRow row(zones);
+  for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    const Interval& interval = intervals_[i];
+    LimitZone zone{s0 + interval.begin, s0 + interval.end, limit_at(interval, feedrate, true)};
+    if (has_axis_limits_) {
+      const double u0 = curve.curvature[i].u;
+      const double u1 = curve.curvature[i + 1].u;
+      const int span = curve.curve.find_span(0.5 * (u0 + u1));
+      const auto from = curve.curve.derivatives(u0, span);
+      const auto to = curve.curve.derivatives(u1, span);
+      const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
+      const Vec3 third = (to.second - from.second) / (u1 - u0);
+      keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
+                                      by_arc_length(to, third), interval.end - interval.begin),
+                       limits_, zone);
+    }
+    if (has_axis_limits_ && interval.is_held && !row.is_empty()) {
+      zone.limit = std::min(zone.limit, row.last().limit);
+      row.lower_last(zone.limit);
+    }
+    row.append(zone);
+  }
+}
+
+void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double feedrate,
+                                 std::vector<LimitZone>& zones) const {
+  const auto* arc = std::get_if<path::Arc>(&segment.geometry);
+  const Interval whole{0.0, segment.length,
+                       std::max(segment.begin.curvature.norm(), segment.end.curvature.norm()),
+                       false, false};
+  const double limit = limit_at(whole, feedrate, false);
+  const int parts = arc != nullptr && has_axis_limits_ ? kArcParts : 1;
+  ZoneRow row(zones);
+  for (int i = 0; i < parts; ++i) {
+    const double begin = segment.length * i / parts;
+    const double end = i + 1 == parts ? segment.length : segment.length * (i + 1) / parts;
+    LimitZone zone{s0 + begin, s0 + end, limit};
+    if (has_axis_limits_) {
+      const auto at = [&](double s) -> ByArcLength {
+        const path::PathPoint p = arc != nullptr ? path::point_at(*arc, s) : segment.begin;
+        // K' of a circle is -kappa^2 T, of a helix less.
+        return {p.tangent, p.curvature, -p.curvature.squaredNorm() * p.tangent};
+      };
+      keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
+                       limits_, zone);
+    }
+    row.append(zone);
+  }
+}
+
+void CertifiedLimits::append(const path::Segment& segment, double s0, double feedrate,
+                             std::vector<LimitZone>& zones) {
+  if (lasting_.needs_turning()) {
+    append_segment_limits(segment, s0, feedrate, lasting_, zones);
+  } else if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+    append_curve(*curve, s0, feedrate, zones);
+  } else {
+    append_arc(segment, s0, feedrate, zones);
+  }
+}
+
+}  // namespace twin::feedrate

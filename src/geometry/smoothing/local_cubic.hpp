@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/vec.hpp"
+#include "geometry/smoothing/polygon.hpp"
+
+namespace twin::geometry {
+
+/// Part of a polygon that is looked at: blocks `first` to `last` of it, from s_begin to s_end.
+struct Stretch {
+  const Polygon* polygon = nullptr;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  double begin = 0.0;  ///< arc length of vertex `first` [mm]
+  double end = 0.0;    ///< arc length of vertex `last` + 1 [mm]
+};
+
+/// The cubic nearest to the smooth path A(s) of a polygon over an interval of its arc length, in
+/// the mean square.
+///
+/// With x = -1..1 across the interval and Legendre's polynomials L_k,
+///   p(x) = sum_k c_k L_k(x),   c_k = (2 k + 1) / 2 integral of A(s(x)) L_k(x) dx,   k = 0..3.  (1)
+/// On the part of a block around x = a, of half width d, A = m + d' y + b (1/3 - y^2), y = -1..1,
+/// and
+///   1/(2d) integral of A x^k dx = m                                                       | k = 0
+///                                 a m + (d/3) d'                                          | k = 1
+///                                 (a^2 + d^2/3) m + (2 a d/3) d' - (4/45) d^2 b           | k = 2
+///                                 (a^3 + a d^2) m + (a^2 d + d^3/5) d' - (4/15) a d^2 b   | k = 3,
+/// so (1) is exact and costs a fixed amount a block. Beyond its ends the polygon goes on as its own
+/// point reflection about the end point, A(s_end + x) = 2 A_end - A(s_end - x).
+///
+/// @note Real-time safe.
+class LocalCubic {
+ public:
+  /// @param block  a block near the beginning of the interval
+  LocalCubic(const Stretch& stretch, std::size_t block, double begin, double end) noexcept;
+
+  /// Mean square distance of cubic and path over the interval [mm^2].
+  double mean_square() const noexcept { return mean_square_; }
+
+  /// Blossom of the cubic at the interval's begin, a place in it and its end: with x of the middle
+  /// place,
+  ///   c_0 + (x / 3) c_1 - c_2 - 3 x c_3                                                        (3)
+  /// since the blossoms of 1, x, x^2, x^3 at (-1, x, 1) are 1, x/3, -1/3, -x [mm].
+  Vec3 blossom(double middle) const noexcept;
+
+  /// Angle by which the cubic turns over the interval, nearly: |C''| in the middle times the length
+  /// of the interval, |C''| = 3 |c_2| / half width^2 [rad].
+  double turn() const noexcept { return 6.0 * moment_[2].norm() / half_; }
+
+  /// Number of blocks in the interval, whole or in part.
+  int blocks() const noexcept { return blocks_; }
+
+ private:
+  void add(double from, const Vec3& start, double to, const Vec3& end, const Vec3& bulge) noexcept;
+  void add_blocks(const Stretch& stretch, std::size_t block, double from, double to,
+                  double mirror) noexcept;
+  void finish() noexcept;
+
+  double centre_;
+  double half_;
+  double inverse_;  // of half_
+  Vec3 origin_;
+  std::array<Vec3, 4> moment_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  double square_ = 0.0;
+  double mean_square_ = 0.0;
+  int blocks_ = 0;
+};
+
+/// The blossom of LocalCubic as an integral: f gives the point
+///   integral of f(s) K(s) ds / half width,
+///   K = 1/2 + (x_m / 2) x - (5/2) L_2(x) - (21/2) x_m L_3(x),   x_m that of the middle place,
+/// by its Eqs. 1 and 3.
+class BlossomKernel {
+ public:
+  BlossomKernel(double begin, double middle, double end) noexcept
+      : centre_(0.5 * (begin + end)),
+        inverse_(2.0 / (end - begin)),
+        middle_((middle - centre_) * inverse_) {}
+
+  /// K over the half width, at s [1/mm].
+  double at(double s) const noexcept {
+    const double x = (s - centre_) * inverse_;
+    const double l2 = 1.5 * x * x - 0.5;
+    const double l3 = x * (2.5 * x * x - 1.5);
+    return inverse_ * (0.5 + 0.5 * middle_ * x - 2.5 * l2 - 10.5 * middle_ * l3);
+  }
+
+ private:
+  double centre_;
+  double inverse_;  // of the half width
+  double middle_;
+};
+
+}  // namespace twin::geometry

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "motion/servo/gains.hpp"
+
+namespace twin::motion {
+
+/// Set point of one axis at one instant.
+struct Reference {
+  double position = 0.0;      ///< [mm]
+  double velocity = 0.0;      ///< [mm/s]
+  double acceleration = 0.0;  ///< [mm/s^2]
+};
+
+/// Position loop of one axis: PD on the error plus feedforward of velocity and acceleration.
+///
+/// With the error e_k = r_k - y_k (set point less measured) of period k, the command velocity is
+///   u_k = Kp e_k + Kd (e_k - e_{k-1}) / T + Kf v_k + Ka a_k                         [mm/s]
+/// and the drive command is
+///   V_k = clamp(u_k / s + V_trim, -10 V, +10 V),   s: V-REF scale [mm/s/V].
+/// The derivative is the backward difference over one period, 0 in the first period after reset().
+/// There is no integral term, so nothing winds up while the command is clamped: the drive's
+/// velocity loop has its own.
+///
+/// Kf = 1 and Ka equal to the delay between command and motion (half a period of the zero-order
+/// hold and the lags of output and drive) make the error of a smooth set point vanish to second
+/// order.
+class AxisServo {
+ public:
+  /// @param gains              gains of this axis
+  /// @param mm_per_s_per_volt  V-REF scale s, signed, not zero [mm/s/V]
+  /// @param period             interpolation period T > 0 [s]
+  AxisServo(const Gains& gains, double mm_per_s_per_volt, double period) noexcept;
+
+  /// Drive command of this period [V], within +-10 V. Real-time safe. @param measured measured
+  /// position [mm]
+  double update(const Reference& reference, double measured) noexcept;
+
+  /// Forgets the last error, as after a change of the set point by hand. Real-time safe.
+  void reset() noexcept;
+
+  /// True if the last command was cut to +-10 V.
+  bool is_saturated() const noexcept { return is_saturated_; }
+  /// Set point less measured at the last update() [mm].
+  double error() const noexcept { return last_error_; }
+
+ private:
+  Gains gains_;
+  double mm_per_s_per_volt_;
+  double rate_;  // 1 / period [1/s]
+  double last_error_ = 0.0;
+  bool has_last_ = false;
+  bool is_saturated_ = false;
+};
+
+}  // namespace twin::motion

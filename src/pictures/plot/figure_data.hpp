@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/vec.hpp"
+
+namespace twin::pictures {
+
+/// What the scripts must know of the data before they can be written.
+struct DataSummary {
+  Vec2 extent = Vec2::Zero();     ///< width and height of the path [mm]
+  double largest_error_um = 0.0;  ///< largest error square to the path, pen down [um]
+  bool has_limit = false;         ///< feedrate_limit.csv is there
+  bool has_pen_up = false;        ///< the pen is lifted at some set points
+  bool has_programmed = false;    ///< contour_programmed.csv was written
+};
+
+/// Reads a trace once and writes the data of all figures, thinned, into the folder of the plots.
+///
+/// @param trace       trace.csv
+/// @param folder      existing folder for the data
+/// @param programmed  programmed path [mm], may be empty
+/// @param plan_only   the trace has the columns of a plan alone
+Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
+                                        const std::filesystem::path& folder,
+                                        std::span<const Vec2> programmed, bool plan_only);
+
+}  // namespace twin::pictures

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/vec.hpp"
+
+namespace twin::pictures {
+
+/// What the figures of one run are made from.
+struct FigureInput {
+  std::filesystem::path directory;  ///< holds trace.csv; the figures go to its folder plots
+  std::string title;                ///< above every figure, as in "dolphin.nc, 3000 mm/min"
+  std::vector<Vec2> programmed =
+      {};  ///< programmed path as a polyline, arcs sampled, NaN lifts the line [mm]; may be empty
+  bool plan_only = false;  ///< the trace has no machine in it: command figures alone
+};
+
+/// Draws the figures of a run as PNG and SVG, in the manner of Figs. 12 to 19 of the paper.
+///
+///   contour              programmed, command and measured path
+///   contour_magnified    the same with the error square to the path magnified
+///   feedrate             feedrate over time, with its limit where plots/feedrate_limit.csv is
+///   there acceleration_jerk    tangential acceleration and jerk of the set points contour_error
+///   contour error over time tracking_errors      tracking error of each axis over time timing how
+///   late periods began and how long they took, where plots/timing.csv is
+///                        there: runs on the wall clock
+///
+/// Titles say "simulated" where summary.json beside the trace does.
+///
+/// Beside each NAME.png and NAME.svg are its data NAME.csv and its script NAME.gp; "gnuplot
+/// NAME.gp" draws it again. Long traces are thinned so that no peak is lost. With plan_only the
+/// figures that need a machine are left out.
+///
+/// @returns the pictures that were written
+Expected<std::vector<std::filesystem::path>> write_figures(const FigureInput& input);
+
+}  // namespace twin::pictures

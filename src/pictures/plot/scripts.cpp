@@ -1,0 +1,259 @@
+#include "pictures/plot/scripts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/trace/pen.hpp"
+
+namespace twin::pictures {
+namespace {
+
+/// Colours that colour-blind readers can tell apart (Okabe and Ito).
+constexpr std::string_view kBlue = "#0072B2";
+constexpr std::string_view kVermilion = "#D55E00";
+constexpr std::string_view kGreen = "#009E73";
+constexpr std::string_view kGrey = "#B0B0B0";
+
+constexpr int kWidth = 1200;  // of the PNG [pixels]; the SVG is smaller by kSvgScale
+constexpr int kHeight = 900;
+constexpr double kSvgScale = 2.0 / 3.0;
+
+/// Height of a picture [pixels] at which a path of this shape leaves no empty strip.
+int path_height(const Vec2& extent) {
+  constexpr double axes = 1000.0;   // width of the plot [pixels]
+  constexpr double border = 250.0;  // title, legend and labels [pixels]
+  constexpr double least = 600.0;
+  const double wanted = border + axes * 1.12 * extent.y() / std::max(extent.x(), 1e-6);
+  return static_cast<int>(std::clamp(wanted, least, static_cast<double>(kHeight)));
+}
+
+/// A place counted from the upper edge, as a part of the picture's height.
+double from_top(int pixels, int height) { return 1.0 - static_cast<double>(pixels) / height; }
+
+/// A whole script: the same page for both formats, then what the figure adds.
+Script script(const std::string& name, const std::string& settings, const std::string& drawing,
+              int height = kHeight) {
+  std::string text = fmt::format(
+      "# Draws {0}.png and {0}.svg from the data beside it: gnuplot {0}.gp\n"
+      "set datafile separator ','\n"
+      "set encoding utf8\n"
+      "set border 3 linecolor rgb '#404040'\n"
+      "set tics nomirror out\n"
+      "set autoscale xfix\n"
+      "set grid linecolor rgb '#E0E0E0' linetype 1 linewidth 0.5\n"
+      "set style line 1 linecolor rgb '{1}' linewidth 1.5\n"
+      "set style line 2 linecolor rgb '{2}' linewidth 1.5\n"
+      "set style line 3 linecolor rgb '{3}' linewidth 1.5\n"
+      "set style line 4 linecolor rgb '{4}' linewidth 4\n"
+      "set style line 6 linecolor rgb '#E69F00' linewidth 3.5\n"
+      "set style line 5 linecolor rgb '{4}' linewidth 1 dashtype 3\n"
+      "set key at screen 0.5, screen {5:.4f} center center horizontal Left reverse samplen 2 width "
+      "2\n"
+      "set tmargin at screen {6:.4f}\n",
+      name, kBlue, kVermilion, kGreen, kGrey, from_top(86, height), from_top(122, height));
+  text += settings;
+  text += fmt::format(
+      "has_cairo = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0\n"
+      "do for [kind in 'png svg'] {{\n"
+      "  if (kind eq 'svg') {{\n"
+      "    set terminal svg size {1},{2} font 'DejaVu Sans,15' background '#FFFFFF'\n"
+      "  }} else {{ if (has_cairo) {{\n"
+      "    set terminal pngcairo size {3},{4} font 'DejaVu Sans,21' linewidth 1.6\n"
+      "  }} else {{\n"
+      "    set terminal png truecolor size {3},{4} font 'DejaVu Sans,21' linewidth 2\n"
+      "  }} }}\n"
+      "  set output '{0}.'.kind\n",
+      name, std::lround(kWidth * kSvgScale), std::lround(height * kSvgScale), kWidth, height);
+  text += drawing;
+  text += "  unset output\n}\n";
+  return {name, text};
+}
+
+std::string set_title(const std::string& title, int height = kHeight) {
+  return title.empty()
+             ? ""
+             : fmt::format("set label 1 {} at screen 0.5, screen {:.4f} center noenhanced\n",
+                           quoted(title), from_top(36, height));
+}
+
+/// Two panels under one title, over the same time, which is labelled once.
+std::string two_panels(const std::string& title, const std::string& upper,
+                       const std::string& lower) {
+  return fmt::format(
+      "  set multiplot layout 2,1 margins 0.16, 0.97, 0.13, {} spacing 0, 0.06{}\n"
+      "  set format x ''\n"
+      "  unset xlabel\n"
+      "  {}\n"
+      "  set format x '%h'\n"
+      "  set xlabel 'time [s]'\n"
+      "  {}\n"
+      "  unset multiplot\n",
+      title.empty() ? "0.96" : "0.90",
+      title.empty() ? "" : " title " + quoted(title) + " noenhanced", upper, lower);
+}
+
+constexpr std::string_view kPathAxes =
+    "set size ratio -1\n"
+    "set autoscale fix\n"
+    "set offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n"
+    "set xlabel 'x [mm]'\n"
+    "set ylabel 'y [mm]'\n";
+
+/// The programmed path below everything else, and the lifted moves, where there are any.
+std::string background(const DataSummary& data) {
+  std::string plots;
+  if (data.has_programmed) {
+    plots +=
+        "'contour_programmed.csv' using 'x_mm':'y_mm' with lines linestyle 4 title 'programmed', "
+        "\\\n    ";
+  }
+  if (data.has_pen_up) {
+    plots +=
+        "'contour.csv' using (up(column('x_cmd_mm'))):'y_cmd_mm' with lines linestyle 5 "
+        "title 'pen up', \\\n    ";
+  }
+  return plots;
+}
+
+std::string pen_functions(const DataSummary& data) {
+  return data.has_pen_up ? fmt::format(
+                               "up(x) = column('z_cmd_mm') > {0} ? x : NaN\n"
+                               "down(x) = column('z_cmd_mm') > {0} ? NaN : x\n",
+                               results::kPenUp)
+                         : "down(x) = x\n";
+}
+
+Script magnified_script(const std::string& title, const DataSummary& data) {
+  const int height = path_height(data.extent);
+  const double n = magnification(data.extent.maxCoeff(), data.largest_error_um);
+  std::string settings = set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
+  settings += fmt::format("magnification = {}\n", n);
+  settings +=
+      "moved(x, error) = x + magnification * error / 1000.0\n"
+      "key = sprintf('measured, error × %g', magnification)\n";
+  const std::string drawing =
+      "  plot 'contour_magnified.csv' using (down(moved(column('x_cmd_mm'), "
+      "column('x_error_um')))):"
+      "(moved(column('y_cmd_mm'), column('y_error_um'))) with lines linestyle 2 linewidth 0.6 "
+      "title key, \\\n"
+      "    '' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines linestyle 1 title 'command'\n";
+  return script("contour_magnified", settings, drawing, height);
+}
+
+Script feedrate_script(const std::string& title, const DataSummary& data) {
+  const std::string settings = set_title(title) +
+                               "set xlabel 'time [s]'\n"
+                               "set ylabel 'feedrate [mm/s]'\n"
+                               "set yrange [0:*]\n"
+                               "set offsets 0, 0, graph 0.04, 0\n";
+  std::string drawing = "  plot ";
+  if (data.has_limit) {
+    drawing +=
+        "'feedrate_limit.csv' using 't_s':'feedrate_limit_mm_per_s' with lines linestyle 6 "
+        "title 'limit', \\\n    ";
+  }
+  drawing +=
+      "'feedrate.csv' using 't_s':'feedrate_mm_per_s' with lines linestyle 1 title "
+      "'feedrate'\n";
+  return script("feedrate", settings, drawing);
+}
+
+Script acceleration_script(const std::string& title) {
+  const std::string settings = "unset key\n";
+  return script("acceleration_jerk", settings,
+                two_panels(title,
+                           "set ylabel \"tangential\\nacceleration [mm/s²]\"\n"
+                           "  plot 'acceleration_jerk.csv' using 't_s':'acceleration_mm_per_s2' "
+                           "with lines linestyle 1 linewidth 1",
+                           "set ylabel \"tangential\\njerk [10³ mm/s³]\"\n"
+                           "  plot 'acceleration_jerk.csv' using 't_s':(column('jerk_mm_per_s3') / "
+                           "1000) with lines linestyle 3 linewidth 1"));
+}
+
+Script contour_error_script(const std::string& title) {
+  const std::string settings = set_title(title) +
+                               "set xlabel 'time [s]'\n"
+                               "set ylabel 'contour error [µm]'\n"
+                               "set yrange [0:*]\n"
+                               "unset key\n"
+                               "set tmargin at screen 0.91\n";
+  return script("contour_error", settings,
+                "  plot 'contour_error.csv' using 't_s':'contour_error_um' with lines linestyle 1 "
+                "linewidth 1\n");
+}
+
+Script tracking_script(const std::string& title) {
+  const std::string settings = "unset key\n";
+  return script("tracking_errors", settings,
+                two_panels(title,
+                           "set ylabel \"tracking error\\nof x [µm]\"\n"
+                           "  plot 'tracking_errors.csv' using 't_s':'x_tracking_error_um' with "
+                           "lines linestyle 1 linewidth 1",
+                           "set ylabel \"tracking error\\nof y [µm]\"\n"
+                           "  plot 'tracking_errors.csv' using 't_s':'y_tracking_error_um' with "
+                           "lines linestyle 2 linewidth 1"));
+}
+
+Script contour_script(const std::string& title, const DataSummary& data, bool plan_only) {
+  const int height = path_height(data.extent);
+  const std::string settings =
+      set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
+  std::string drawing = "  plot " + background(data) +
+                        "'contour.csv' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines "
+                        "linestyle 1 title 'command'";
+  if (!plan_only) {
+    drawing +=
+        ", \\\n    '' using (down(column('x_enc_mm'))):'y_enc_mm' with lines linestyle 2 "
+        "dashtype 2 title 'measured'";
+  }
+  return script("contour", settings, drawing + "\n", height);
+}
+
+}  // namespace
+
+Script page(const std::string& name, const std::string& settings, const std::string& drawing) {
+  return script(name, settings, drawing);
+}
+
+std::string title_line(const std::string& title) { return set_title(title); }
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 32) {
+      result += ' ';
+    } else if (c == '\'') {
+      result += "''";
+    } else {
+      result += c;
+    }
+  }
+  return result + "'";
+}
+
+double magnification(double extent, double largest_error_um) {
+  constexpr double part = 0.05;  // of the picture
+  if (!(largest_error_um > 0.0) || !(extent > 0.0)) {
+    return 1.0;
+  }
+  const double wanted = part * extent / (largest_error_um / 1000.0);
+  const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double digit = wanted / decade;
+  return std::max(1.0, decade * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0));
+}
+
+std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
+                                   bool plan_only) {
+  std::vector<Script> scripts{contour_script(title, data, plan_only), feedrate_script(title, data),
+                              acceleration_script(title)};
+  if (!plan_only) {
+    scripts.push_back(magnified_script(title, data));
+    scripts.push_back(contour_error_script(title));
+    scripts.push_back(tracking_script(title));
+  }
+  return scripts;
+}
+
+}  // namespace twin::pictures

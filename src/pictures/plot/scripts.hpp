@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pictures/plot/figure_data.hpp"
+
+namespace twin::pictures {
+
+/// A gnuplot script under its figure's name.
+struct Script {
+  std::string name;  ///< of the figure, as in "contour"
+  std::string text;
+};
+
+/// A whole script: the page that all figures share, then what the figure adds.
+///
+/// @param name      of the figure; it makes NAME.png and NAME.svg
+/// @param settings  lines before the terminals are set
+/// @param drawing   lines that draw, once for each format
+Script page(const std::string& name, const std::string& settings, const std::string& drawing);
+
+/// The line that sets the title; any text.
+std::string title_line(const std::string& title);
+
+/// Any text as a gnuplot string constant.
+std::string quoted(const std::string& text);
+
+/// Magnification 1, 2 or 5 times a power of ten at which the largest error spans about a twentieth
+/// of the picture.
+///
+/// @param extent            longer side of the path's bounding box [mm]
+/// @param largest_error_um  [um]
+/// @returns at least 1
+double magnification(double extent, double largest_error_um);
+
+/// The scripts of all figures of a run or of a plan.
+///
+/// @param title      above every figure; any text
+std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
+                                   bool plan_only);
+
+}  // namespace twin::pictures

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+/// Names of the columns of trace.csv, in their order; units are part of the names and both are an
+/// interface.
+namespace twin::results {
+
+inline constexpr std::size_t kPlanColumns = 7;  ///< columns of a trace without a machine
+
+inline constexpr std::array<std::string_view, 16> kColumns{
+    "t_s",                  // time since the first set point
+    "segment",              // planned segment, counted from 0
+    "line",                 // NC line
+    "x_cmd_mm",             // set point
+    "y_cmd_mm",             //
+    "z_cmd_mm",             //
+    "feedrate_mm_per_s",    // of the set point, along the path
+    "x_enc_mm",             // what the encoder counts mean
+    "y_enc_mm",             //
+    "x_table_mm",           // true position of the table
+    "y_table_mm",           //
+    "x_drive_V",            // drive command
+    "y_drive_V",            //
+    "contour_error_um",     // distance of the encoder's position from the programmed path
+    "x_tracking_error_um",  // set point less encoder
+    "y_tracking_error_um"};
+
+inline constexpr std::string_view kTraceName = "trace.csv";
+/// In the folder of the plots: histograms of the periods of a run on the wall clock.
+inline constexpr std::string_view kTimingName = "timing.csv";
+inline constexpr std::string_view kPartialTraceName = "trace.partial.csv";
+inline constexpr std::string_view kLimitName =
+    "feedrate_limit.csv";  ///< in the folder of the plots
+
+}  // namespace twin::results

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/vec.hpp"
+#include "studies/circular/circle_fit.hpp"
+#include "studies/circular/circle_program.hpp"
+
+namespace twin::studies::circular {
+
+/// Actual path of the measured turn in both senses, counter-clockwise first [mm].
+using BothPaths = std::array<std::vector<Vec2>, 2>;
+
+/// What ISO 230-4 says of one sense. Radial deviations are positive outside the nominal circle.
+struct SenseDeviations {
+  double circular = 0.0;    ///< circular deviation G: width of the minimum zone of the path [mm]
+  double radial_max = 0.0;  ///< radial deviation F_max from the nominal circle [mm]
+  double radial_min = 0.0;  ///< F_min [mm]
+  Circle least_squares;     ///< of the path [mm]
+};
+
+/// What it says of both. H is of the first edition (1996); later ones have G(b) and D in its place
+/// and write "error" for "deviation".
+struct Deviations {
+  std::array<SenseDeviations, 2> sense;  ///< counter-clockwise, clockwise
+  double bidirectional = 0.0;            ///< G(b): width of the minimum zone of both paths [mm]
+  double hysteresis = 0.0;   ///< H: largest difference of the two paths' radii at one angle, seen
+                             ///< from the centre of their least-squares circle [mm]
+  double mean_radial = 0.0;  ///< D: radius of the least-squares circle of both paths less the
+                             ///< nominal radius [mm]
+};
+
+/// @param radius  of the nominal circle about (0, 0) [mm]
+Deviations evaluate(const BothPaths& paths, double radius);
+
+}  // namespace twin::studies::circular

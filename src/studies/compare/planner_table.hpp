@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/text_table.hpp"
+#include "pictures/figure/workshop.hpp"
+#include "studies/compare/comparison.hpp"
+
+namespace twin::studies::compare {
+
+/// The planners, as the machine file calls them.
+inline constexpr std::array<const char*, 2> kPlanners{"paper", "certified"};
+
+/// One program under one planner; nothing moves.
+struct PlannerRow {
+  std::string program;  ///< file name
+  std::string planner;  ///< "paper", "certified"
+  results::Summary summary;
+  double time_bound = 0.0;     ///< of its path [s]
+  double deviation = 0.0;      ///< certified; 0: none [mm]
+  double planning_time = 0.0;  ///< read to planned segment, wall clock [s]
+  std::string verdict;         ///< of the audit
+};
+
+/// Plans each program with each planner.
+///
+/// @param request  its program and curve programs are not looked at
+Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
+                                               const std::vector<std::filesystem::path>& programs);
+
+/// A line each program and planner.
+TextTable grid_of_planners(const std::vector<PlannerRow>& rows);
+
+/// Writes planners.md, planners.csv and planners.json; all of them or none.
+Expected<void> write_planner_table(const std::vector<PlannerRow>& rows,
+                                   const pictures::Workshop& workshop);
+
+}  // namespace twin::studies::compare

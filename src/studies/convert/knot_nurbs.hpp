@@ -1,0 +1,50 @@
+#pragma once
+
+#include "studies/convert/dialect.hpp"
+
+namespace twin::studies::convert {
+
+/// G06.2: control points with their knots and weights, as they are.
+///
+///     G06.2 P4 K0 X0 Y0 R1     rank; knot, place and weight of the first control point
+///     K0 X1 Y1 R1              ...
+///     K1                       as many knots alone as the rank
+///     G06.3
+///
+/// Source: see gcode::NurbsCollector. LinuxCNC has it from 2.10 on (the `rs274` of Debian 12 is 2.9
+/// and does not know the word).
+class KnotNurbs : public Dialect {
+ public:
+  std::string_view name() const override { return "g6.2"; }
+  std::string_view control() const override { return "LinuxCNC 2.10, G6.2"; }
+  Expected<CurveCounts> write_curve(const CurveRequest& request, std::string& text) const override;
+
+ protected:
+  virtual int most_rank() const { return 6; }
+  virtual bool has_end_word() const { return true; }
+  /// Factor of the knots, which only their ratios count of, and their decimals.
+  virtual double knot_scale() const { return 1.0; }
+  virtual int knot_decimals() const { return 9; }
+};
+
+/// The same for FANUC: no G06.3, for the next G word of motion ends the curve; rank 2 to 4.
+///
+/// A FANUC of increment system IS-C takes four decimals of a coordinate; knots are whole numbers of
+/// the least increment too, hence the factor of 1000. Source: FANUC Series 15i/150i-MA operator's
+/// manual (programming), "NURBS interpolation (G06.2)".
+class FanucNurbs : public KnotNurbs {
+ public:
+  std::string_view name() const override { return "fanuc"; }
+  std::string_view control() const override { return "FANUC, G06.2"; }
+  int decimals() const override { return 4; }
+  std::string path_mode(gcode::PathMode mode, double tolerance) const override;
+  std::string dwell(double duration) const override;
+
+ protected:
+  int most_rank() const override { return 4; }
+  bool has_end_word() const override { return false; }
+  double knot_scale() const override { return 1000.0; }
+  int knot_decimals() const override { return 4; }
+};
+
+}  // namespace twin::studies::convert

@@ -1,0 +1,100 @@
+#include "studies/identify/candidates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "hal/mujoco/table_settings.hpp"
+
+namespace twin::studies::identify {
+namespace {
+
+using When = Candidate::When;
+constexpr Scale kLinear = Scale::kLinear;
+constexpr Scale kLog = Scale::kLogarithmic;
+
+/// A candidate without its axis. Ranges of 0 to 0 depend on the machine.
+struct Line {
+  const char* section;  // "table" or "servo"
+  const char* key;
+  double min;
+  double max;
+  Scale scale;
+  const char* name;
+  int hold_rank;
+  When when = When::kAlways;
+  double natural = 0.0;
+};
+
+constexpr std::array kLines{
+    Line{"table", "moving_mass_kg", 0, 0, kLog, "moving mass", 0},
+    Line{"table", "coulomb_friction_N", 0.1, 1000, kLog, "Coulomb friction", 12},
+    Line{"table", "static_friction_ratio", 1, 4, kLinear, "static / Coulomb friction", 7},
+    Line{"table", "stribeck_velocity_mm_per_s", 0.1, 50, kLog, "Stribeck velocity", 4},
+    Line{"table", "bristle_stiffness_N_per_um", 1e-3, 1000, kLog, "bristle stiffness", 6},
+    Line{"table", "bristle_damping_N_s_per_m", 0, 2e4, kLinear, "bristle damping", 3, When::kAlways,
+         1.0},
+    Line{"table", "viscous_friction_N_s_per_m", 0, 2e3, kLinear, "viscous friction", 5,
+         When::kAlways, 1.0},
+    Line{"table", "velocity_gain_Hz", 0, 0, kLog, "velocity loop gain", 13},
+    Line{"table", "integral_time_ms", 0.5, 500, kLog, "velocity loop integral time", 11},
+    Line{"table", "current_lag_ms", 0, 3, kLinear, "current loop lag", 2, When::kAlways, 0.05},
+    Line{"table", "output_delay_ms", 0, 3, kLinear, "output delay", 9, When::kAlways, 0.05},
+    Line{"table", "vref_scale_rpm_per_V", 0, 0, kLinear, "V-REF scale", 8, When::kWithVolts},
+    Line{"table", "vref_offset_mV", -300, 300, kLinear, "V-REF offset", 14, When::kAlways, 4},
+    Line{"table", "hum_amplitude_mV", 0, 300, kLinear, "hum amplitude", 15},
+    Line{"table", "hum_frequency_Hz", 5, 450, kLinear, "hum frequency", 16},
+    Line{"table", "hum_phase_deg", -360, 360, kLinear, "hum phase", 17, When::kAlways, 90},
+    Line{"servo", "kp_per_s", 5, 1000, kLog, "position gain Kp", 18, When::kWithoutVolts},
+    Line{"servo", "kf", 0, 1.5, kLinear, "velocity feedforward Kf", 19, When::kWithoutVolts},
+    Line{"servo", "ka_s", -0.01, 0.01, kLinear, "acceleration feedforward Ka", 10,
+         When::kWithoutVolts, 4e-4}};
+
+/// Largest velocity loop gain that the physics step bears, with a margin [Hz].
+double most_gain(const config::MachineFile& machine) {
+  const double step =
+      machine.period / hal::steps_per_period(machine.period, machine.table.physics_step);
+  return 0.9 / (2.0 * std::numbers::pi * std::max(step, machine.table.physics_step));
+}
+
+}  // namespace
+
+std::string table_section(hal::Axis axis) { return axis == hal::kX ? "table.x." : "table.y."; }
+
+std::vector<Candidate> axis_candidates(const config::MachineFile& machine, hal::Axis axis) {
+  const double mass = machine.table.axis[axis].moving_mass;
+  const double scale = machine.table.axis[axis].drive.vref_scale_rpm_per_V;
+  std::vector<Candidate> candidates;
+  for (const Line& line : kLines) {
+    const std::string_view key = line.key;
+    double min = line.min;
+    double max = line.max;
+    if (key.starts_with("moving_mass")) {
+      min = std::max(0.05 * mass, 0.1);
+      max = std::min(20.0 * mass, 1e4);
+    } else if (key.starts_with("velocity_gain")) {
+      min = 1.0;
+      max = most_gain(machine);
+    } else if (key.starts_with("vref_scale")) {
+      std::tie(min, max) = std::minmax({0.5 * scale, 2.0 * scale});
+    }
+    Candidate candidate;
+    candidate.parameter.key = std::string(line.section) + (axis == hal::kX ? ".x." : ".y.");
+    candidate.parameter.key += line.key;
+    candidate.parameter.min = min;
+    candidate.parameter.max = max;
+    candidate.parameter.scale = line.scale;
+    candidate.name = line.name;
+    candidate.hold_rank = line.hold_rank;
+    candidate.when = line.when;
+    candidate.natural = line.natural;
+    candidate.is_analysed_only = line.hold_rank == 0;
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+}  // namespace twin::studies::identify

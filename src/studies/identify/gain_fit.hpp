@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "motion/servo/gains.hpp"
+#include "studies/identify/axis_problem.hpp"
+
+namespace twin::studies::identify {
+
+/// Gains of the position loop and their standard deviations, from recorded drive commands.
+struct GainFit {
+  motion::Gains gains;
+  motion::Gains sigma;
+  double rms_V = 0.0;  ///< what the law of the servo leaves unexplained [V]
+};
+
+/// Linear least squares of s V_k = Kp e_k + Kd (e_k - e_{k-1}) / T + Kf v_k + Ka a_k + s V_trim.
+///
+/// Rows at the limit of +-10 V are left out. Every record must have volts.
+/// @param mm_per_s_per_volt  V-REF scale s [mm/s/V]  @param period  T [s]
+GainFit fit_gains(std::span<const AxisRecord> records, double mm_per_s_per_volt, double period);
+
+}  // namespace twin::studies::identify

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/machine_file.hpp"
+#include "core/error.hpp"
+#include "studies/identify/axis_fit.hpp"
+#include "studies/identify/recording.hpp"
+
+namespace twin::studies::identify {
+
+/// RMS and maximum of a tracking error [mm].
+struct ErrorFigures {
+  double rms = 0.0;
+  double max = 0.0;
+};
+
+/// Tracking error of one axis in one trace, measured and of the identified machine in closed loop.
+struct Prediction {
+  std::string trace;
+  hal::Axis axis = hal::kX;
+  ErrorFigures measured;
+  ErrorFigures simulated;
+};
+
+/// What recordings say of a machine.
+struct Identification {
+  config::MachineFile machine;  ///< the start with everything that was identified
+  std::array<std::optional<AxisFit>, hal::kServoAxes> axis;  ///< nothing for one that did not move
+  std::vector<Prediction> predictions;
+  std::vector<std::string> notes;
+  bool has_volts = false;
+};
+
+/// Fits both axes of a machine to recordings, at the same time.
+///
+/// All recordings must have one period, which becomes that of the machine; either all or none have
+/// the drive command of an axis, else it is not used.
+/// @param start  machine file whose values the search begins at and unidentified parameters keep
+Expected<Identification> identify(const std::vector<Recording>& recordings,
+                                  const config::MachineFile& start, const FitOptions& options);
+
+}  // namespace twin::studies::identify

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/identify/axis_fit.hpp"
+#include "studies/identify/least_squares.hpp"
+
+namespace twin::studies::identify {
+
+/// Relative standard deviation from which on a parameter counts as not shown by the data.
+inline constexpr double kMostRelative = 0.25;
+
+/// What the data say of one parameter.
+struct ParameterJudgement {
+  Verdict verdict = Verdict::kIdentified;
+  double sigma = 0.0;     ///< standard deviation, in the key's unit
+  double relative = 0.0;  ///< of the value, or of its natural size
+  std::string why;        ///< where it is not identified
+};
+using Judgement = std::vector<ParameterJudgement>;
+
+/// A candidate at the fit.
+struct JudgedCandidate {
+  const Candidate* candidate = nullptr;
+  double value = 0.0;    ///< in the key's unit
+  double unit = 0.0;     ///< place in its range, 0 to 1
+  bool is_held = false;  ///< known to be unidentified
+};
+
+/// Tells identified from unidentified parameters at a least-squares fit.
+///
+/// From the derivatives J at the fit and the residuals comes a covariance. While some parameter's
+/// relative standard deviation exceeds kMostRelative, one of these is held (its column of J
+/// dropped): the one of the lowest hold_rank. So of parameters that only show together, as the mass
+/// and all frictions that scale with it, one is held and the others are determined against it.
+/// The deviations reported include a doubt of 30 % of each held value, passed on to first order.
+/// @param block  rows within which residuals may be correlated
+Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals& residuals,
+                Eigen::Index block);
+
+}  // namespace twin::studies::identify

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/jobs/run_jobs.hpp"
+#include "studies/reproduce/published.hpp"
+
+namespace twin::studies::reproduce {
+
+/// What is to be reproduced, and on which table.
+struct Request {
+  Published published;
+  std::filesystem::path machine_file;
+  std::vector<std::string> settings;  ///< section.key=value, for all rows
+  int repeats = 10;                   ///< runs with other phases, for mean and deviation
+  std::filesystem::path folder;       ///< exists; gets a folder with the trace of each single run
+  studies::Options running;
+};
+
+/// Mean and standard deviation of a figure over the repeats.
+struct Spread {
+  double mean = 0.0;
+  double deviation = 0.0;  ///< of one run; 0 for a single repeat
+};
+
+/// Our answer to a published row. Figures are in the order and the units of columns_of(table).
+struct Answer {
+  PublishedRow published;
+  std::vector<double> single;    ///< with the phases of the machine file
+  std::vector<Spread> repeats;   ///< empty where nothing was repeated
+  results::Summary summary;      ///< of the single run
+  config::MachineFile machine;   ///< of the single run
+  std::filesystem::path folder;  ///< with its trace.csv
+};
+
+/// All rows, run in one way.
+struct Variant {
+  std::string name;             ///< "as_published", "defaults"
+  std::string title;            ///< for a heading
+  std::vector<Answer> answers;  ///< in the order of the published rows
+};
+
+/// The paper's tables, answered twice: with the variants of the method that the paper describes
+/// for each row, and with the defaults of this program.
+struct Reproduction {
+  std::string source;   ///< of the published figures
+  std::string machine;  ///< name of the machine file
+  int repeats = 0;
+  std::array<Variant, 2> variants;
+
+  const Variant& as_published() const { return variants[0]; }
+  const Variant& defaults() const { return variants[1]; }
+};
+
+/// Runs every row in both ways. Rows with the same program, interpolator, feedrate and settings are
+/// run once.
+Expected<Reproduction> reproduce(const Request& request);
+
+/// The answer for a measured row: program, interpolator, feedrate. Null if there is none.
+const Answer* find_answer(const Variant& variant, const std::string& program,
+                          const std::string& interpolator, double feedrate_mm_per_min);
+
+}  // namespace twin::studies::reproduce

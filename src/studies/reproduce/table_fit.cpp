@@ -1,0 +1,242 @@
+#include "studies/reproduce/table_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "config/find_file.hpp"
+#include "config/overrides.hpp"
+#include "core/units.hpp"
+#include "studies/identify/minimise.hpp"
+#include "studies/identify/parallel_for.hpp"
+#include "studies/identify/table_run.hpp"
+#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/phases.hpp"
+#include "studies/reproduce/table_parameters.hpp"
+
+namespace twin::studies::reproduce {
+namespace {
+
+using config::MachineFile;
+using studies::identify::RunErrors;
+using studies::identify::TableRun;
+
+constexpr double kLargestKf = 0.6;  // of the planning model, that is tried
+constexpr int kBitsOfKf = 12;       // a few thousandths
+constexpr std::size_t kErrors = 6;  // of a row: all figures but the time, which comes last
+constexpr std::size_t kPopulation = 16;
+constexpr double kMoved = 0.1;  // of a range, to see whether a parameter matters
+
+/// The measured rows with their programs and the settings they are run with.
+class Rows {
+ public:
+  static Expected<Rows> create(const Published& published) {
+    Rows rows;
+    for (const PublishedRow& row : published.rows) {
+      if (!is_measured(row.table)) {
+        continue;
+      }
+      auto program = config::find_program(row.program + ".nc");
+      if (!program) {
+        return tl::unexpected(program.error());
+      }
+      rows.rows_.push_back({row, *program});
+    }
+    return rows;
+  }
+
+  /// Plans every row with the planning keys of a machine file.
+  Expected<std::vector<TableRun>> plan(const MachineFile& machine) const {
+    std::vector<Expected<TableRun>> planned(rows_.size());
+    studies::identify::parallel_for(rows_.size(), [&](std::size_t i) {
+      MachineFile file = machine;
+      std::vector<std::string> settings = rows_[i].row.settings;
+      settings.push_back("interpolator.kind=" + rows_[i].row.interpolator);
+      if (auto set = config::apply_overrides(file, settings); !set) {
+        planned[i] = tl::unexpected(set.error());
+        return;
+      }
+      planned[i] =
+          TableRun::plan(rows_[i].program, file,
+                         units::mm_per_s_from_mm_per_min(rows_[i].row.feedrate_mm_per_min));
+    });
+    std::vector<TableRun> runs;
+    for (auto& run : planned) {
+      if (!run) {
+        return tl::unexpected(run.error());
+      }
+      runs.push_back(std::move(*run));
+    }
+    return runs;
+  }
+
+  std::size_t size() const { return rows_.size(); }
+  /// Published figures of a row, in the order of columns_of().
+  const std::vector<double>& figures(std::size_t i) const { return rows_[i].row.figures; }
+
+ private:
+  struct Row {
+    PublishedRow row;
+    std::filesystem::path program;
+  };
+  std::vector<Row> rows_;
+};
+
+std::array<double, kErrors> figures_um(const RunErrors& e) {
+  std::array<double, kErrors> figures{e.contour_max, e.contour_rms, e.axis_max[0],
+                                      e.axis_rms[0], e.axis_max[1], e.axis_rms[1]};
+  std::ranges::for_each(figures, [](double& x) { x = units::um_from_mm(x); });
+  return figures;
+}
+
+/// Root mean square of machining time / published - 1.
+double time_error(const Rows& rows, const std::vector<TableRun>& runs) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    sum += std::pow(runs[i].machining_time() / rows.figures(i).back() - 1.0, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(runs.size()));
+}
+
+/// A stage of the search.
+struct Stage {
+  double share;   // of the evaluations
+  double spread;  // first standard deviation, of each range
+  std::size_t repeats;
+  double (*cost)(double ours, double published);
+  double weight_of_first;  // of the costs of the first run alone
+};
+constexpr Stage kWide{0.6, 0.12, 2, smooth_cost, 0.0};
+constexpr Stage kNear{0.4, 0.05, 3, share_cost, 0.4};
+
+double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const MachineFile& machine,
+               const Stage& stage) {
+  const std::size_t n = stage.repeats;
+  std::vector<std::array<double, kErrors>> figures(runs.size() * n);
+  studies::identify::parallel_for(figures.size(), [&](std::size_t i) {
+    MachineFile file = machine;
+    file.table = with_phases_of_repeat(machine.table, static_cast<int>(i % n));
+    figures[i] = figures_um(runs[i / n].run(file));
+  });
+  double cost = 0.0;
+  for (std::size_t row = 0; row < runs.size(); ++row) {
+    for (std::size_t k = 0; k < kErrors; ++k) {
+      double mean = 0.0;
+      for (std::size_t repeat = 0; repeat < n; ++repeat) {
+        mean += figures[row * n + repeat][k] / static_cast<double>(n);
+      }
+      cost += stage.cost(mean, rows.figures(row)[k]) +
+              stage.weight_of_first * stage.cost(figures[row * n][k], rows.figures(row)[k]);
+    }
+  }
+  return cost;
+}
+
+MachineFile with_planning_kf(const MachineFile& machine, double kf) {
+  MachineFile file = machine;
+  file.planning.kp = machine.planning.kp / (1.0 - machine.planning.kf) * (1.0 - kf);
+  file.planning.kf = kf;
+  return file;
+}
+
+/// The machine with the planning model whose machining times fit best.
+Expected<MachineFile> fit_planning(const Rows& rows, const MachineFile& start) {
+  Expected<MachineFile> result = start;
+  const auto error = [&](double kf) {
+    const auto runs = rows.plan(with_planning_kf(start, kf));
+    if (!runs) {
+      result = tl::unexpected(runs.error());
+      return std::numeric_limits<double>::max();
+    }
+    return time_error(rows, *runs);
+  };
+  const double kf = boost::math::tools::brent_find_minima(error, 0.0, kLargestKf, kBitsOfKf).first;
+  return result ? with_planning_kf(start, kf) : result;
+}
+
+}  // namespace
+
+double smooth_cost(double ours, double published) {
+  const double e2 = std::pow(std::log(ours / published), 2);
+  if (!std::isfinite(e2)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return 0.5 * e2 / (e2 + 0.15 * 0.15) + 0.5 * e2 / (e2 + 0.28 * 0.28) + 0.05 * e2;
+}
+
+double share_cost(double ours, double published) {
+  const auto step = [](double x) { return 1.0 / (1.0 + std::exp(-x / 0.02)); };
+  const double d = std::abs(ours / published - 1.0);
+  return step(d - 0.19) + 0.8 * step(d - 0.285) + 0.25 * smooth_cost(ours, published);
+}
+
+Expected<TableFit> fit_tables(const Published& published, const MachineFile& start,
+                              const TableFitOptions& options) {
+  auto rows = Rows::create(published);
+  auto parameters = studies::identify::ParameterSet::create(table_parameters());
+  if (!rows || !parameters) {
+    return tl::unexpected(!rows ? rows.error() : parameters.error());
+  }
+  const auto planned = fit_planning(*rows, start);
+  if (!planned) {
+    return tl::unexpected(planned.error());
+  }
+  const auto runs = rows->plan(*planned);
+  if (!runs) {
+    return tl::unexpected(runs.error());
+  }
+  const auto cost = [&](std::span<const double> x, const Stage& stage) {
+    return cost_of(*rows, *runs, parameters->with_units(*planned, x), stage);
+  };
+  TableFit fit;
+  std::vector<double> x = parameters->units(*planned);
+  fit.cost_before = cost(x, kNear);
+  double done = 0.0;
+  for (const Stage& stage : {kWide, kNear}) {
+    studies::identify::MinimiseOptions search;
+    search.start = x;
+    search.spread = stage.spread;
+    search.population = kPopulation;
+    search.evaluations =
+        static_cast<std::size_t>(stage.share * static_cast<double>(options.evaluations));
+    search.seed = options.seed;
+    search.stop = options.stop;
+    if (options.progress) {
+      search.progress = [&](double share, double least) {
+        options.progress(done + share * stage.share, least);
+      };
+    }
+    const studies::identify::Minimum best = studies::identify::minimise(
+        [&](std::span<const double> at) { return cost(at, stage); }, search);
+    x = best.x;
+    fit.was_stopped = fit.was_stopped || best.was_stopped;
+    done += stage.share;
+  }
+  fit.cost_after = cost(x, kNear);
+  if (fit.cost_after > fit.cost_before) {  // the wide stage has left what was better
+    x = parameters->units(*planned);
+    fit.cost_after = fit.cost_before;
+  }
+  fit.machine = parameters->with_units(*planned, x);
+  fit.time_error = time_error(*rows, *runs);
+  const std::vector<double> before = parameters->values(start);
+  const std::vector<double> after = parameters->values(fit.machine);
+  for (std::size_t i = 0; i < parameters->size(); ++i) {
+    FittedValue value{(*parameters)[i].key, before[i], after[i], 0.0, false};
+    value.is_at_bound = x[i] < 1e-3 || x[i] > 1.0 - 1e-3;
+    if (!fit.was_stopped) {
+      std::vector<double> moved = x;
+      moved[i] = std::max(x[i] - kMoved, 0.0);
+      const double less = cost(moved, kNear);
+      moved[i] = std::min(x[i] + kMoved, 1.0);
+      value.rise = std::min(less, cost(moved, kNear)) - fit.cost_after;
+    }
+    fit.values.push_back(std::move(value));
+  }
+  return fit;
+}
+
+}  // namespace twin::studies::reproduce

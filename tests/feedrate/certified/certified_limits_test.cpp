@@ -1,0 +1,112 @@
+#include "feedrate/certified/certified_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "feedrate/limits/curvature_limit.hpp"
+#include "tests/path/blocks.hpp"
+#include "tests/support/random_program.hpp"
+
+namespace twin::feedrate {
+namespace certified_limits_test {
+
+using path::testing::build;
+using path::testing::polyline;
+
+path::PathPoint place(const path::FittedCurve& fitted, double s) {
+  return path::point_from(fitted.curve.derivatives(fitted.arc_length.u_at(fitted.curve, s, 0.0)));
+}
+
+/// Calls f(curve, zone, place) for places between the samples of random fitted curves.
+template <class F>
+void for_places(const Limits& limits, const F& f) {
+  std::mt19937 random(1);
+  CertifiedLimits certified(limits, {}, {}, 1e-3);
+  int curves = 0;
+  for (int i = 0; i < 60; ++i) {
+    for (const path::Segment& segment : build(testing::random_program(random, 25))) {
+      const auto* fitted = std::get_if<path::FittedCurve>(&segment.geometry);
+      if (fitted == nullptr) {
+        continue;
+      }
+      ++curves;
+      std::vector<LimitZone> zones;
+      certified.append(segment, 0.0, segment.feedrate, zones);
+      ASSERT_EQ(zones.front().begin, 0.0);
+      ASSERT_NEAR(zones.back().end, segment.length, 1e-9);
+      for (const LimitZone& zone : zones) {
+        for (const double part : {0.03, 0.31, 0.5, 0.77, 0.98}) {
+          f(*fitted, zone, zone.begin + part * (zone.end - zone.begin));
+        }
+      }
+    }
+  }
+  EXPECT_GT(curves, 50);
+}
+
+TEST(CertifiedLimits, NormalAccelerationIsKeptBetweenTheSamples) {
+  Limits limits;
+  limits.acceleration = 300.0;
+  for_places(limits, [&](const path::FittedCurve& fitted, const LimitZone& zone, double s) {
+    const double kappa = place(fitted, s).curvature.norm();
+    EXPECT_LE(kappa * zone.limit * zone.limit, 300.0 * (1.0 + 1e-6));
+  });
+}
+
+TEST(CertifiedLimits, EveryAxisIsKeptBetweenTheSamplesByDifferencesOfThePath) {
+  Limits limits;
+  limits.axis_feedrate = {70.0, 90.0, 0.0};
+  limits.axis_acceleration = {1500.0, 2000.0, 0.0};
+  limits.axis_jerk = {60000.0, 40000.0, 0.0};
+  for_places(limits, [&](const path::FittedCurve& fitted, const LimitZone& zone, double s) {
+    const double h = 1e-6;
+    if (zone.end - zone.begin < 100.0 * h) {
+      return;  // too short for differences
+    }
+    const double low = std::max(s - h, 0.0);
+    const double high = std::min(s + h, fitted.arc_length.length());
+    const path::PathPoint at = place(fitted, s);
+    const Vec3 twist =
+        (place(fitted, high).curvature - place(fitted, low).curvature) / (high - low);
+    const double v = zone.limit;
+    const double a = std::min(zone.acceleration, limits.acceleration);
+    const double j = std::min(zone.jerk, limits.jerk);
+    for (int i = 0; i < 2; ++i) {
+      const double t = std::abs(at.tangent[i]);
+      const double k = std::abs(at.curvature[i]);
+      EXPECT_LE(t * v, limits.axis_feedrate[i] * (1.0 + 1e-6));
+      EXPECT_LE(t * a + k * v * v, limits.axis_acceleration[i] * (1.0 + 1e-6));
+      EXPECT_LE(t * j + 3.0 * k * v * a + std::abs(twist[i]) * v * v * v,
+                limits.axis_jerk[i] * 1.001);
+    }
+  });
+}
+
+/// A square's corner of 90 degrees rounded by an arc of chords of this radius.
+double lowest_limit_at_corner(double radius) {
+  std::vector<Vec3> points{{-5, 0, 0}};
+  for (int i = 0; i <= 24; ++i) {
+    const double angle = std::numbers::pi / 2.0 * i / 24;
+    points.emplace_back(radius * std::sin(angle), radius * (1.0 - std::cos(angle)), 0.0);
+  }
+  points.emplace_back(radius, radius + 5.0, 0.0);
+  CertifiedLimits certified({}, {}, {}, 1e-3);
+  double lowest = 1e9;
+  for (const path::Segment& segment : build(polyline(points))) {
+    std::vector<LimitZone> zones;
+    certified.append(segment, 0.0, 50.0, zones);
+    for (const LimitZone& zone : zones) {
+      lowest = std::min(lowest, zone.limit);
+    }
+  }
+  return lowest;
+}
+
+TEST(CertifiedLimits, CurvatureThatLastsIsHeldToTheCircularError) {
+  // Far from a corner: (sqrt(2) - 1) 1 mm is 40 times the corner error.
+  EXPECT_NEAR(lowest_limit_at_corner(1.0), servo_model_feedrate(1.0, {}), 3.0);
+}
+
+}  // namespace certified_limits_test
+}  // namespace twin::feedrate

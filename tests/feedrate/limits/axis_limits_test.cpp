@@ -1,0 +1,79 @@
+#include "feedrate/limits/axis_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/feedrate/profile/s_curve.hpp"
+
+namespace twin::feedrate {
+namespace axis_limits_test {
+
+using testing::log_uniform;
+
+TEST(AxisLimits, NoneLeaveAZoneAsItIs) {
+  EXPECT_FALSE(has_axis_limits({}));
+  LimitZone zone{0.0, 1.0, 50.0};
+  keep_axis_limits({Vec3::Ones(), Vec3::Ones(), Vec3::Ones()}, {}, zone);
+  EXPECT_EQ(zone.limit, 50.0);
+  EXPECT_TRUE(std::isinf(zone.acceleration));
+  EXPECT_TRUE(std::isinf(zone.jerk));
+}
+
+TEST(AxisLimits, OnALineEachAxisIsUsedUp) {
+  Limits limits;
+  limits.axis_feedrate = {30.0, 0.0, 0.0};
+  limits.axis_acceleration = {1200.0, 800.0, 0.0};
+  limits.axis_jerk = {30000.0, 16000.0, 0.0};
+  LimitZone zone{0.0, 1.0, 200.0};
+  keep_axis_limits({{0.6, 0.8, 0.0}, Vec3::Zero(), Vec3::Zero()}, limits, zone);
+  EXPECT_DOUBLE_EQ(zone.limit, 50.0);
+  EXPECT_DOUBLE_EQ(zone.acceleration, 1000.0);
+  EXPECT_DOUBLE_EQ(zone.jerk, 20000.0);
+}
+
+TEST(AxisLimits, AnyMotionWithinAZoneKeepsEveryAxis) {
+  std::mt19937 random(1);
+  const auto part = [&] { return std::uniform_real_distribution<double>(-1.0, 1.0)(random); };
+  for (int i = 0; i < 20000; ++i) {
+    Limits limits;
+    limits.acceleration = log_uniform(random, 100.0, 1e4);
+    limits.jerk = log_uniform(random, 1e3, 1e6);
+    const bool has_jerk = random() % 3 != 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      limits.axis_feedrate[axis] = log_uniform(random, 1.0, 300.0);
+      limits.axis_acceleration[axis] = log_uniform(random, 50.0, 1e4);
+      limits.axis_jerk[axis] = has_jerk ? log_uniform(random, 1e3, 1e6) : 0.0;
+    }
+    const double kappa = log_uniform(random, 1e-4, 50.0);
+    const double twist = kappa * log_uniform(random, 1e-3, 100.0);
+    PathBounds bounds;
+    bounds.tangent = Vec3(part(), part(), part()).normalized().cwiseAbs();
+    bounds.curvature = kappa * Vec3(part(), part(), part()).normalized().cwiseAbs();
+    bounds.twist = twist * Vec3(part(), part(), part()).normalized().cwiseAbs();
+    LimitZone zone{0.0, 1.0, log_uniform(random, 0.1, 200.0)};
+    keep_axis_limits(bounds, limits, zone);
+    ASSERT_GT(zone.limit, 0.0);
+    ASSERT_GT(zone.acceleration, 0.0);
+    ASSERT_GT(zone.jerk, 0.0);
+    for (int k = 0; k < 20; ++k) {
+      const double v = zone.limit * std::abs(part());
+      const double a = std::min(zone.acceleration, limits.acceleration) * part();
+      const double j = std::min(zone.jerk, limits.jerk) * part();
+      for (int axis = 0; axis < 3; ++axis) {
+        const double t = bounds.tangent[axis] * part();
+        const double c = bounds.curvature[axis] * part();
+        const double w = bounds.twist[axis] * part();
+        ASSERT_LE(std::abs(t * v), limits.axis_feedrate[axis] * (1.0 + 1e-9));
+        ASSERT_LE(std::abs(t * a + c * v * v), limits.axis_acceleration[axis] * (1.0 + 1e-9));
+        if (has_jerk) {
+          ASSERT_LE(std::abs(t * j + 3.0 * c * v * a + w * v * v * v),
+                    limits.axis_jerk[axis] * (1.0 + 1e-9));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace axis_limits_test
+}  // namespace twin::feedrate

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <array>
+
+#include "feedrate/profile/ramp_limits.hpp"
+
+namespace twin::feedrate::testing {
+
+inline constexpr std::array<AccelerationProfile, 3> kProfiles{
+    AccelerationProfile::kTrapezoidal, AccelerationProfile::kSCurve, AccelerationProfile::kFir};
+
+}  // namespace twin::feedrate::testing

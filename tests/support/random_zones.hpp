@@ -1,0 +1,21 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/profile/ramp_limits.hpp"
+#include "tests/feedrate/profile/motion_profile.hpp"
+
+namespace twin::feedrate::testing {
+
+/// Zones of all sizes, with single places and stops between them.
+std::vector<LimitZone> random_zones(std::mt19937& random);
+
+/// Fails unless the feedrate stays under every zone, but for the rounding of places.
+void expect_under_zones(const MotionProfile& profile, const std::vector<LimitZone>& zones);
+
+/// Fails unless the phases join in place, feedrate and acceleration and keep A and J.
+void expect_feasible(const MotionProfile& profile, const RampLimits& limits);
+
+}  // namespace twin::feedrate::testing
