@@ -4,32 +4,9 @@
 #include <tl/expected.hpp>
 #include <utility>
 
+#include "twin/error.hpp"
+
 namespace twin {
-
-/// What kind of thing went wrong; decides the exit status.
-enum class ErrorCode {
-  kUsage,        ///< the command line or a setting is wrong: exit status 2
-  kProgram,      ///< the NC program is wrong: exit status 1
-  kFile,         ///< a file cannot be read or written: exit status 1
-  kModel,        ///< the MuJoCo model is missing, broken or became unstable: exit status 1
-  kMachine,      ///< the machine refused or failed: exit status 1
-  kInterrupted,  ///< the user stopped the run: exit status 1
-};
-
-/// An error a user can act on: where it is, what was found, what was expected.
-struct Error {
-  ErrorCode code = ErrorCode::kProgram;
-  std::string message;  ///< found value with unit, limit, what to do; no file name and no line
-  std::string file;     ///< file it is about, or empty
-  int line = 0;         ///< line in that file from 1, or 0
-  int column = 0;       ///< column in that line from 1, or 0
-};
-
-/// "file:line:column: message", leaving out what is not known.
-std::string to_string(const Error& error);
-
-/// Exit status of the process for an error: 2 for bad usage, else 1.
-int exit_status(const Error& error) noexcept;
 
 template <class T>
 using Expected = tl::expected<T, Error>;
@@ -40,3 +17,27 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
 }
 
 }  // namespace twin
+
+#define TWIN_JOINED_2(a, b) a##b
+#define TWIN_JOINED(a, b) TWIN_JOINED_2(a, b)
+#define TWIN_TRY_AS(name, declaration, ...)         \
+  auto name = (__VA_ARGS__);                        \
+  if (!name) {                                      \
+    return tl::unexpected(std::move(name).error()); \
+  }                                                 \
+  declaration = *std::move(name)
+
+/// Takes the value of an Expected, or returns its error from the function around.
+///
+///   TWIN_TRY(const double x, read_number(text));
+#define TWIN_TRY(declaration, ...) \
+  TWIN_TRY_AS(TWIN_JOINED(twin_try_, __LINE__), declaration, __VA_ARGS__)
+
+/// Goes on if an Expected has no error, or returns its error from the function around.
+///
+///   TWIN_CHECK(write_whole_file(file, text));
+#define TWIN_CHECK(...)                                     \
+  if (auto twin_checked = (__VA_ARGS__); !twin_checked) {   \
+    return tl::unexpected(std::move(twin_checked).error()); \
+  } else /* so that it stands where a statement stands */   \
+    static_cast<void>(0)
