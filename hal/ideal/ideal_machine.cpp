@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace twin::hal {
+namespace twin::hal::ideal {
 namespace {
 
 constexpr double kMmPerCount = 1e-6;  // 1 nm: finer than any error of interest [mm]
@@ -105,4 +105,4 @@ std::string IdealMachine::last_error() const {
   return {};
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::ideal

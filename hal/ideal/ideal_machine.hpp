@@ -5,7 +5,7 @@
 
 #include "hal/machine.hpp"
 
-namespace twin::hal {
+namespace twin::hal::ideal {
 
 /// A machine whose position equals the set point: what remains of an error is the planner's own.
 ///
@@ -39,4 +39,4 @@ class IdealMachine final : public Machine {
   std::array<bool, kServoAxes> servo_on_{};
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::ideal

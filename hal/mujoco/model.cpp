@@ -6,7 +6,7 @@
 
 #include "hal/mujoco/mujoco_errors.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 /// MuJoCo's text on one line, without the prefix that every message has.
@@ -68,4 +68,4 @@ Expected<int> find_id(const mjModel& model, mjtObj type, const std::string& kind
   return id;
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 struct ModelDeleter {
   void operator()(mjModel* model) const noexcept { mj_deleteModel(model); }
@@ -31,4 +31,4 @@ Expected<DataPtr> make_data(const mjModel& model);
 Expected<int> find_id(const mjModel& model, mjtObj type, const std::string& kind,
                       const std::string& name);
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

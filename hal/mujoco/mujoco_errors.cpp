@@ -4,7 +4,7 @@
 
 #include <mutex>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 void throw_error(const char* text) { throw MujocoError(text); }
@@ -20,4 +20,4 @@ void install_mujoco_handlers() noexcept {
   });
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// What MuJoCo would have ended the process with.
 class MujocoError : public std::runtime_error {
@@ -15,4 +15,4 @@ class MujocoError : public std::runtime_error {
 /// process wide; installing them again is free.
 void install_mujoco_handlers() noexcept;
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

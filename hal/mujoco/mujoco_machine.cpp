@@ -5,7 +5,7 @@
 
 #include "hal/mujoco/table_plant.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 MujocoMachine::MujocoMachine(TableParams params) : params_(std::move(params)) {
   info_.name = "mujoco";
@@ -164,4 +164,4 @@ std::string MujocoMachine::last_error() const {
   return {};
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

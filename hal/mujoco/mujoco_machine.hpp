@@ -10,7 +10,7 @@
 #include "hal/mujoco/encoder.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 class TablePlant;
 
@@ -64,4 +64,4 @@ class MujocoMachine final : public Machine {
   std::array<double, kServoAxes> external_force_{};  // [N]
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

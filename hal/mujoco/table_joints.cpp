@@ -5,7 +5,7 @@
 #include "core/units.hpp"
 #include "hal/mujoco/model.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 constexpr double kPerMInPerMm = 1000.0;  // stiffness and damping per mm in one per m
@@ -105,4 +105,4 @@ Expected<void> apply_params(mjModel& model, mjData& data, const TableJoints& joi
   return {};
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

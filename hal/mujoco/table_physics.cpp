@@ -5,7 +5,7 @@
 
 #include "core/units.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 /// Switches off what no model of the table needs, whatever its file says.
@@ -103,4 +103,4 @@ bool TablePhysics::is_unstable() const noexcept {
          warning[mjWARN_BADQACC].number > 0 || warning[mjWARN_INERTIA].number > 0;
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -8,7 +8,7 @@
 #include "hal/mujoco/table_joints.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// The masses of the table in MuJoCo: the one place where mm meet m.
 ///
@@ -47,4 +47,4 @@ class TablePhysics {
   double pen_omega_;  // bandwidth of the pen slide [rad/s]
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -10,7 +10,7 @@
 #include "hal/mujoco/table_physics.hpp"
 #include "hal/mujoco/table_settings.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 Expected<std::unique_ptr<TablePlant>> TablePlant::open(const TableParams& params, double period) {
   if (!(period > 0.0) || !std::isfinite(period)) {
@@ -116,4 +116,4 @@ std::string TablePlant::last_error() const {
   return {};
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

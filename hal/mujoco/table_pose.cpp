@@ -3,7 +3,7 @@
 #include "core/units.hpp"
 #include "hal/mujoco/model.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 Expected<TablePose> find_table_pose(const mjModel& model) {
   TablePose pose;
@@ -24,4 +24,4 @@ void set_table_pose(const TablePose& pose, mjData& data, double x, double y, dou
   data.qpos[pose.z] = units::m_from_mm(z);
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 constexpr double kMilli = 1e-3;
@@ -141,4 +141,4 @@ Expected<void> validate(const TableParams& params) {
   return {};
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

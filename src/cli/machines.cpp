@@ -9,9 +9,9 @@ namespace twin::cli {
 std::unique_ptr<hal::Machine> make_machine(const std::string& hal,
                                            const config::MachineFile& machine) {
   if (hal == "ideal") {
-    return std::make_unique<hal::IdealMachine>();
+    return std::make_unique<hal::ideal::IdealMachine>();
   }
-  return std::make_unique<hal::MujocoMachine>(machine.table);
+  return std::make_unique<hal::mujoco::MujocoMachine>(machine.table);
 }
 
 Expected<std::unique_ptr<hal::Machine>> open_machine(const Options& options,

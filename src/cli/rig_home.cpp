@@ -112,7 +112,7 @@ Expected<void> home(const Options& options, const std::atomic<bool>& stop) {
     return tl::unexpected(rig.error());
   }
   const hal::Axis axis = options.axis == "x" ? hal::kX : hal::kY;
-  const hal::AxisParams& table = machine->table.axis[axis];
+  const hal::mujoco::AxisParams& table = machine->table.axis[axis];
   hal::KeptMachine kept(**rig);
   Homing homing(options, *machine, kept, stop);
   const auto homed = studies::commissioning::home_axis(

@@ -16,13 +16,14 @@ namespace rig = hal::rig;
 Expected<RigPorts> open_ports(RigKind kind, const Options& options,
                               const config::MachineFile& machine) {
   if (kind == RigKind::kProcess) {
-    return rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kObserver)
-        .map([&](std::shared_ptr<rig::SharedRegisters> shared) {
+    return rig::boards::SharedRegisters::attach(shared_name(options),
+                                                rig::boards::SharedRole::kObserver)
+        .map([&](std::shared_ptr<rig::boards::SharedRegisters> shared) {
           return ports_of(shared->boards(), machine.rig, shared);
         });
   }
   if (kind == RigKind::kEmulated) {
-    const auto bench = std::make_shared<rig::EmulatedRig>(machine.table, machine.rig);
+    const auto bench = std::make_shared<rig::emulator::EmulatedRig>(machine.table, machine.rig);
     return bench->power_on(machine.period).map([&] {
       bench->advance();
       return ports_of(bench->boards(), machine.rig, bench);
@@ -35,7 +36,7 @@ Expected<RigPorts> open_ports(RigKind kind, const Options& options,
   RigPorts ports;
   for (const auto& [card, port] :
        {std::pair(&found->pci1716, &ports.pci1716), std::pair(&found->pci1784, &ports.pci1784)}) {
-    auto opened = rig::open_port(card->port);
+    auto opened = rig::io_port::open_port(card->port);
     if (!opened) {
       return tl::unexpected(std::move(opened.error()));
     }

@@ -59,7 +59,7 @@ struct Binding {
 std::vector<Binding> bindings(MachineFile& machine);
 
 /// The part of bindings() that is about the simulated table.
-std::vector<Binding> table_bindings(hal::TableParams& table);
+std::vector<Binding> table_bindings(hal::mujoco::TableParams& table);
 
 /// The part of bindings() that is about monitors and wall clock: [safety], [realtime].
 std::vector<Binding> safety_bindings(MachineFile& machine);

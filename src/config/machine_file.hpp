@@ -34,8 +34,8 @@ struct MachineFile {
   std::array<motion::Gains, hal::kServoAxes> servo;
   motion::SafetySettings safety;
   RealtimeSettings realtime;
-  hal::TableParams table;     ///< table.model is absolute once read
-  hal::rig::RigSettings rig;  ///< cards and wires of the real machine
+  hal::mujoco::TableParams table;  ///< table.model is absolute once read
+  hal::rig::RigSettings rig;       ///< cards and wires of the real machine
   std::array<studies::commissioning::HomeSettings, hal::kServoAxes> home;
 };
 

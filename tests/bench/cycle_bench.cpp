@@ -100,7 +100,7 @@ void interpolate(benchmark::State& state) {
 void interpolate_and_servo(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
   motion::Interpolator interpolator(source, 0.001);
-  hal::IdealMachine machine;
+  hal::ideal::IdealMachine machine;
   if (!machine.configure(0.001) || !machine.activate()) {
     state.SkipWithError("no machine");
     return;
@@ -137,13 +137,13 @@ void whole_period_on_the_rig(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
   motion::Interpolator interpolator(source, 0.001);
   namespace rig = hal::rig;
-  rig::BoardRegisters boards;
-  rig::power_on(boards, 0, 0);
+  rig::boards::BoardRegisters boards;
+  rig::boards::power_on(boards, 0, 0);
   boards.pci1716.digital_in = 0xFF;  // ready, no alarm, limit switches closed
   const rig::RigSettings settings;
   const auto open = [&] {
-    return rig::RegisterCards::open(std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
-                                    std::make_unique<rig::EmulatedPci1784>(boards.pci1784),
+    return rig::RegisterCards::open(std::make_unique<rig::boards::EmulatedPci1716>(boards.pci1716),
+                                    std::make_unique<rig::boards::EmulatedPci1784>(boards.pci1784),
                                     settings);
   };
   rig::RigMachine machine(settings, {{1e-3, 1e-3}, {100.0, 100.0}}, open);
@@ -173,9 +173,9 @@ void whole_period_on_the_rig(benchmark::State& state) {
 void whole_period_on_the_table(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
   motion::Interpolator interpolator(source, 0.001);
-  hal::TableParams params;
+  hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
-  hal::MujocoMachine machine(params);
+  hal::mujoco::MujocoMachine machine(params);
   if (!machine.configure(0.001) || !machine.activate()) {
     state.SkipWithError("no machine");
     return;

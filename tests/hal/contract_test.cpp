@@ -31,16 +31,16 @@ struct Kind {
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 std::unique_ptr<Machine> make_mujoco(const char* model) {
-  TableParams params;
+  mujoco::TableParams params;
   params.model = mjcf_file(model);
-  return std::make_unique<MujocoMachine>(params);
+  return std::make_unique<mujoco::MujocoMachine>(params);
 }
 
 std::unique_ptr<Machine> make_rig() {
-  const TableParams table = testing::default_table();
+  const mujoco::TableParams table = testing::default_table();
   const rig::RigSettings settings;
-  return rig::testing::make_emulated(table, std::make_shared<rig::EmulatedRig>(table, settings),
-                                     settings);
+  return rig::testing::make_emulated(
+      table, std::make_shared<rig::emulator::EmulatedRig>(table, settings), settings);
 }
 
 class MachineContract : public ::testing::TestWithParam<Kind> {
@@ -197,14 +197,14 @@ TEST_P(MachineContract, ReadAndWriteAllocateNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Machines, MachineContract,
-    ::testing::Values(Kind{"Ideal", [] { return std::make_unique<IdealMachine>(); }},
+    ::testing::Values(Kind{"Ideal", [] { return std::make_unique<ideal::IdealMachine>(); }},
                       Kind{"Mujoco", [] { return make_mujoco("xy_table.xml"); }},
                       Kind{"MujocoCompliant", [] { return make_mujoco("xy_table_compliant.xml"); }},
                       Kind{"EmulatedRig", make_rig}),
     [](const ::testing::TestParamInfo<Kind>& kind) { return kind.param.name; });
 
 TEST(IdealMachine, TruthIsTheReferenceOfTheSamePeriod) {
-  IdealMachine machine;
+  ideal::IdealMachine machine;
   ASSERT_TRUE(machine.configure(kPeriod));
   ASSERT_TRUE(machine.activate());
   Outputs outputs;

@@ -10,7 +10,7 @@
 #include "tests/hal/table_files.hpp"
 
 // The table's velocity after a step of the drive command, without friction and disturbance.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace drive_step_test {
 
 using Complex = std::complex<double>;
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Drives, VelocityStep,
                                            Case{80.0, 5e-3, 2e-3}));
 
 }  // namespace drive_step_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -9,7 +9,7 @@
 
 // Friction of the whole table at rest and about to move, servo off: MuJoCo's slide and the bristle
 // together.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace friction_at_rest_test {
 
 constexpr double kPeriod = 1e-3;  // [s]
@@ -118,4 +118,4 @@ INSTANTIATE_TEST_SUITE_P(Axes, PushedTable, ::testing::Values(kX, kY),
                          });
 
 }  // namespace friction_at_rest_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -34,7 +34,7 @@ class CycleTest : public ::testing::Test {
 };
 
 TEST_F(CycleTest, AllocatesNothing) {
-  hal::IdealMachine machine;
+  hal::ideal::IdealMachine machine;
   ASSERT_TRUE(machine.configure(kPeriod));
   ASSERT_TRUE(machine.activate());
   Cycle cycle(interpolator, &machine, gains, kPeriod);
@@ -52,9 +52,9 @@ TEST_F(CycleTest, AllocatesNothing) {
 }
 
 TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
-  hal::TableParams params;
+  hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
-  hal::MujocoMachine machine(params);
+  hal::mujoco::MujocoMachine machine(params);
   ASSERT_TRUE(machine.configure(kPeriod));
   ASSERT_TRUE(machine.activate());
   Cycle cycle(interpolator, &machine, gains, kPeriod);
@@ -79,7 +79,7 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
 }
 
 TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
-  hal::IdealMachine machine;
+  hal::ideal::IdealMachine machine;
   ASSERT_TRUE(machine.configure(kPeriod));
   ASSERT_TRUE(machine.activate());
   Cycle cycle(interpolator, &machine, gains, kPeriod);

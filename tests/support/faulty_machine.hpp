@@ -13,7 +13,8 @@ namespace twin::test {
 /// The simulated table behind wires that can be cut, swapped or crossed from one period on.
 class FaultyMachine final : public hal::Machine {
  public:
-  explicit FaultyMachine(const hal::TableParams& params) : table_(params), info_(table_.info()) {}
+  explicit FaultyMachine(const hal::mujoco::TableParams& params)
+      : table_(params), info_(table_.info()) {}
 
   std::function<void(std::int64_t, hal::Inputs&)> on_read;    ///< gets the number of the read
   std::function<void(std::int64_t, hal::Outputs&)> on_write;  ///< gets the number of the write
@@ -54,7 +55,7 @@ class FaultyMachine final : public hal::Machine {
   std::string last_error() const override { return table_.last_error(); }
 
  private:
-  hal::MujocoMachine table_;
+  hal::mujoco::MujocoMachine table_;
   hal::MachineInfo info_;
 };
 

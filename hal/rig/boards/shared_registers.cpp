@@ -19,7 +19,7 @@
 
 #include "core/descriptor.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 using namespace std::chrono_literals;
@@ -220,4 +220,4 @@ bool is_running(pid_t process) noexcept {
   return !has_ended;
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 namespace {
 
 constexpr std::uint16_t kSubsystem1716L = 0x0001;  // the variant without analogue outputs
@@ -116,4 +116,4 @@ Expected<CardSeen> find_card(const CardKind& kind, int board_id, Access access,
                   kind.vendor, kind.device, board_id, folder, what_is_there(kind, cards, folder)));
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

@@ -11,7 +11,7 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace model_test {
 
 using ::testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST(Model, ErrorsOfMujocoBecomeExceptions) {
 }
 
 }  // namespace model_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -9,7 +9,7 @@
 #include "tests/hal/position_loop.hpp"
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace mujoco_machine_test {
 
 using testing::default_table;
@@ -211,4 +211,4 @@ TEST(MujocoMachine, SlidesHaveTheMassOfTheParametersWithTheRotor) {
 }
 
 }  // namespace mujoco_machine_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -19,7 +19,7 @@ class Switch : public ::testing::Test {
   Switch() { table.model = hal::testing::mjcf_file("xy_table.xml"); }
 
   std::unique_ptr<RigMachine> make() {
-    bench = std::make_shared<EmulatedRig>(table, settings);
+    bench = std::make_shared<emulator::EmulatedRig>(table, settings);
     return testing::make_emulated(table, bench, settings);
   }
   static Outputs outputs(int k) {
@@ -31,7 +31,7 @@ class Switch : public ::testing::Test {
   }
   // Runs both with the same motion; signs of the rig's wires are in its scales.
   void expect_same_motion() {
-    MujocoMachine simulated(table);
+    mujoco::MujocoMachine simulated(table);
     const auto rig = make();
     ASSERT_TRUE(simulated.configure(kPeriod) && simulated.activate());
     ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
@@ -56,9 +56,9 @@ class Switch : public ::testing::Test {
     }
   }
 
-  TableParams table;
+  mujoco::TableParams table;
   RigSettings settings;
-  std::shared_ptr<EmulatedRig> bench;
+  std::shared_ptr<emulator::EmulatedRig> bench;
 };
 
 TEST_F(Switch, BothMachinesGiveTheSameBitsInEveryPeriod) { expect_same_motion(); }
@@ -80,13 +80,13 @@ TEST_F(Switch, AnAlarmIsResetByActivationAndABrokenWireIsNot) {
   const auto rig = make();
   ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
   Inputs inputs;
-  bench->inject({FaultKind::kAlarm, kY, 0.0});
+  bench->inject({emulator::FaultKind::kAlarm, kY, 0.0});
   ASSERT_EQ(rig->read(inputs), Status::kOk);
   EXPECT_FALSE(inputs.alarm[kX]);
   EXPECT_TRUE(inputs.alarm[kY]);
   rig->deactivate();
   ASSERT_TRUE(rig->activate());
-  bench->inject({FaultKind::kWireBroken, kX, 0.0});
+  bench->inject({emulator::FaultKind::kWireBroken, kX, 0.0});
   ASSERT_EQ(rig->read(inputs), Status::kOk);
   EXPECT_TRUE(inputs.alarm[kX]);
   rig->deactivate();
@@ -96,7 +96,8 @@ TEST_F(Switch, AnAlarmIsResetByActivationAndABrokenWireIsNot) {
 }
 
 TEST_F(Switch, ACardThatVanishesIsNamed) {
-  for (const FaultKind gone : {FaultKind::kCardGone1716, FaultKind::kCardGone1784}) {
+  for (const emulator::FaultKind gone :
+       {emulator::FaultKind::kCardGone1716, emulator::FaultKind::kCardGone1784}) {
     const auto rig = make();
     ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
     Inputs inputs;
@@ -104,7 +105,7 @@ TEST_F(Switch, ACardThatVanishesIsNamed) {
     bench->inject({gone, kX, 0.0});
     EXPECT_EQ(rig->read(inputs), Status::kError);
     EXPECT_THAT(rig->last_error(),
-                HasSubstr(gone == FaultKind::kCardGone1716 ? "PCI-1716" : "PCI-1784"));
+                HasSubstr(gone == emulator::FaultKind::kCardGone1716 ? "PCI-1716" : "PCI-1784"));
     EXPECT_FALSE(rig->activate());
   }
 }

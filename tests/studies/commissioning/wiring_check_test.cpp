@@ -66,7 +66,7 @@ class MiswiredTable final : public hal::Machine {
   std::array<double, 2> last_volts{};
 
  private:
-  hal::MujocoMachine table_;
+  hal::mujoco::MujocoMachine table_;
 
  public:
   hal::MachineInfo info_;

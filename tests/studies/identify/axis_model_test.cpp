@@ -21,7 +21,7 @@ using Rows = std::array<std::vector<AxisRow>, hal::kServoAxes>;
 
 /// The same run on the table of MuJoCo, by the period of runtime::Cycle.
 Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPoint>& points) {
-  hal::MujocoMachine table(file.table);
+  hal::mujoco::MujocoMachine table(file.table);
   EXPECT_TRUE(table.configure(file.period));
   EXPECT_TRUE(table.activate());
   std::array<motion::AxisServo, 2> servos{

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "as_nobody.hpp"
-#include "sysfs_tree.hpp"
+#include "tests/hal/rig/as_nobody.hpp"
+#include "tests/hal/rig/sysfs_tree.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 namespace find_card_test {
 
 using testing::AsNobody;
@@ -172,4 +172,4 @@ TEST(IoBase, IsTheStartOfTheBar) {
 }
 
 }  // namespace find_card_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

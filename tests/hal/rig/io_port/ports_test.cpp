@@ -3,14 +3,14 @@
 
 #include <cerrno>
 
-#include "as_nobody.hpp"
 #include "hal/rig/io_port/ioperm_port.hpp"
 #include "hal/rig/io_port/port_address.hpp"
 #include "hal/rig/io_port/sysfs_port.hpp"
+#include "tests/hal/rig/as_nobody.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/temp_folder.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 namespace ports_test {
 
 using test::TempFolder;
@@ -121,4 +121,4 @@ TEST(PortAddress, OpensThePortItNames) {
 }
 
 }  // namespace ports_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port
