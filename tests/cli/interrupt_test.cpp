@@ -4,9 +4,9 @@
 #include <thread>
 
 #include "core/limits.hpp"
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Ctrl-C brakes on the path, stops the machine and keeps what was recorded.
 namespace twin::cli {

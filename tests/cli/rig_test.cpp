@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/cli_fixture.hpp"
 #include "tests/hal/rig/sysfs_tree.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // The switch --hal rig and the commands of `twin rig`, on emulated boards.
 namespace twin::cli {

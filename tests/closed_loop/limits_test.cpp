@@ -2,8 +2,8 @@
 #include <ostream>
 
 #include "results/metrics/limit_audit.hpp"
-#include "tests/closed_loop/loop_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/loop_fixture.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Set points of every program of nc_programs against the machine's limits, from differences alone.
 namespace twin {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "tests/closed_loop/loop_fixture.hpp"
 #include "tests/support/child.hpp"
+#include "tests/support/loop_fixture.hpp"
 
 // What cutting a path into many blocks must not cost: time on the machine, and memory.
 namespace twin {

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "core/units.hpp"
-#include "tests/closed_loop/loop_fixture.hpp"
+#include "tests/support/loop_fixture.hpp"
 
 // The two programs beside what Wang & Yau publish of theirs: Tables 1 and 3, machining times of the
 // NURBS rows of Tables 4 and 5.

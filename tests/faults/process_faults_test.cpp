@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "tests/faults/rig_processes.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // What happens to the outputs when a process of the rig dies, hangs or is told to stop: emulator
 // and controller as two programs on the wall clock, seen from the emulator's log. A system under

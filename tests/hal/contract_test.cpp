@@ -183,7 +183,7 @@ TEST_P(MachineContract, TwoMachinesInOneProcessDoNotDisturbEachOther) {
 
 TEST_P(MachineContract, ReadAndWriteAllocateNothing) {
   start();
-  const std::int64_t before = testing::allocations();
+  const std::int64_t before = test::allocations();
   int failures = 0;
   for (int k = 0; k < 200; ++k) {
     failures += machine->read(inputs) != Status::kOk;
@@ -191,7 +191,7 @@ TEST_P(MachineContract, ReadAndWriteAllocateNothing) {
     failures += machine->write(outputs) != Status::kOk;
     failures += !std::isfinite(machine->truth().table_position[kX]);
   }
-  EXPECT_EQ(testing::allocations() - before, 0);
+  EXPECT_EQ(test::allocations() - before, 0);
   EXPECT_EQ(failures, 0);
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace twin::programs::test {
+namespace twin::test {
 
 using Point = Eigen::Vector2d;
 
@@ -62,4 +62,4 @@ inline std::vector<double> lengths(const std::vector<Point>& points) {
   return out;
 }
 
-}  // namespace twin::programs::test
+}  // namespace twin::test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/nurbs/fit.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace curve_segment_test {
@@ -11,7 +11,7 @@ namespace curve_segment_test {
 FittedCurve circle_curve(double radius, double chord, int count) {
   geometry::Fitter fitter;
   FittedCurve fitted;
-  EXPECT_TRUE(fitter.fit(testing::circle_points(radius, chord, count), {}, {}, fitted.curve));
+  EXPECT_TRUE(fitter.fit(test::circle_points(radius, chord, count), {}, {}, fitted.curve));
   measure(fitted);
   return fitted;
 }

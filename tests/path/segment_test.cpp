@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace segment_test {
 
-using testing::dwell_block;
-using testing::line_block;
+using test::dwell_block;
+using test::line_block;
 
 TEST(Line, RunsStraightAtUnitPace) {
   const Line line{{1, 2, 3}, Vec3(2, -1, 2) / 3.0};

@@ -7,17 +7,17 @@
 namespace twin::path {
 namespace smooth_builder_test {
 
-using testing::arc_block;
-using testing::circle_points;
-using testing::dwell_block;
-using testing::expect_marks;
-using testing::expect_smooth_joints;
-using testing::expect_within_bounds;
-using testing::is_curve;
-using testing::is_line;
-using testing::line_block;
-using testing::polyline;
-using testing::smooth;
+using test::arc_block;
+using test::circle_points;
+using test::dwell_block;
+using test::expect_marks;
+using test::expect_smooth_joints;
+using test::expect_within_bounds;
+using test::is_curve;
+using test::is_line;
+using test::line_block;
+using test::polyline;
+using test::smooth;
 
 double length_of(const std::vector<Segment>& segments) {
   double length = 0.0;
@@ -41,8 +41,8 @@ TEST(SmoothBuilder, RoundsACornerOfLongLinesAndLeavesTheRestExact) {
   // The bump: |C'' | = |D| / h, |C'|^2 = 1/2 in the middle, D = sqrt 2, h = 6 e / D.
   const double h = 6.0 * 0.01 * 0.99 * 0.975 / std::sqrt(2.0);
   const Segment& corner = segments[1];
-  EXPECT_NEAR(testing::place(corner, 0.5 * corner.length).curvature.norm(),
-              std::sqrt(2.0) / h * 2.0, 1e-3 / h);
+  EXPECT_NEAR(test::place(corner, 0.5 * corner.length).curvature.norm(), std::sqrt(2.0) / h * 2.0,
+              1e-3 / h);
 }
 
 TEST(SmoothBuilder, TakesTheToleranceOfG64P) {
@@ -114,7 +114,7 @@ TEST(SmoothBuilder, MakesTheSameLineOfAnyNumberOfPieces) {
     const auto segments = smooth(polyline(points));
     EXPECT_NEAR(length_of(segments), 400.0, 1e-9);
     for (const Segment& segment : segments) {
-      EXPECT_LT(testing::place(segment, 0.5 * segment.length).curvature.norm(), 1e-9);
+      EXPECT_LT(test::place(segment, 0.5 * segment.length).curvature.norm(), 1e-9);
       EXPECT_LT(segment.deviation, 1e-9);
     }
   }
@@ -137,7 +137,7 @@ TEST(SmoothBuilder, LeavesOutSpecks) {
   expect_marks(segments, 4);
   EXPECT_EQ(segments.back().end.position, points.back());
   for (const Segment& segment : segments) {
-    EXPECT_LT(testing::place(segment, 0.5 * segment.length).curvature.norm(), 1e-3);
+    EXPECT_LT(test::place(segment, 0.5 * segment.length).curvature.norm(), 1e-3);
   }
   EXPECT_TRUE(std::any_of(segments.begin(), segments.end(),
                           [](const Segment& segment) { return segment.deviation >= 1e-5; }));

@@ -1,4 +1,4 @@
-#include "tests/closed_loop/loop_fixture.hpp"
+#include "tests/support/loop_fixture.hpp"
 
 // Whole programs on the table: what they report must not hang on how finely time is cut.
 namespace twin {

@@ -9,8 +9,8 @@
 
 #include "runtime/motion.hpp"
 #include "runtime/program_planner.hpp"
-#include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/fake_machine.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // On the wall clock the machine waits for nothing. A planner that falls behind makes it brake on
 // the path and go on later; the set points of all periods, pauses included, are held against the

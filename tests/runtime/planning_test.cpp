@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/runtime/planned.hpp"
+#include "tests/support/planned.hpp"
 
 namespace twin::runtime {
 namespace planning_test {

@@ -176,14 +176,14 @@ TEST_F(RigMachineTest, ReadAndWriteAllocateNothing) {
   int failures = 0;
   Outputs outputs;
   outputs.servo_on = {true, true};
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   for (int k = 0; k < 200; ++k) {
     failures += machine->read(inputs) != Status::kOk;
     outputs.volts = {0.01 * k, -0.02 * k};
     failures += machine->write(outputs) != Status::kOk;
     failures += machine->truth().table_position[kX] != 0.0;
   }
-  EXPECT_EQ(hal::testing::allocations() - before, 0);
+  EXPECT_EQ(test::allocations() - before, 0);
   EXPECT_EQ(failures, 0);
 }
 

@@ -6,8 +6,8 @@
 
 #include "config/machine_file.hpp"
 #include "runtime/motion.hpp"
-#include "tests/runtime/faulty_machine.hpp"
-#include "tests/runtime/planned.hpp"
+#include "tests/support/faulty_machine.hpp"
+#include "tests/support/planned.hpp"
 
 // Faults put between controller and simulated table: what trips, how soon, and how far the table
 // has gone by then. In every case 0 V and servo off are written in the period of the trip, and

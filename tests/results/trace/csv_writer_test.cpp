@@ -8,17 +8,18 @@
 #include <random>
 
 #include "results/trace/csv_reader.hpp"
-#include "synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::results {
 namespace csv_writer_test {
 
 using test::content;
-using test::TemporaryDirectory;
+using test::TempFolder;
 
 TEST(CsvWriter, HeaderAndRowAreExactlyTheInterface) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   auto writer = CsvWriter::create(directory.path(), Layout::kRun);
   ASSERT_TRUE(writer);
   Sample sample;
@@ -40,7 +41,7 @@ TEST(CsvWriter, HeaderAndRowAreExactlyTheInterface) {
 }
 
 TEST(CsvWriter, APlanHasTheFirstSevenColumns) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   auto writer = CsvWriter::create(directory.path(), Layout::kPlan);
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->write(Sample{}));
@@ -50,7 +51,7 @@ TEST(CsvWriter, APlanHasTheFirstSevenColumns) {
 }
 
 TEST(CsvWriter, WithoutCommitTheRowsAreThePartialTrace) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   {
     auto writer = CsvWriter::create(directory.path(), Layout::kPlan);
     ASSERT_TRUE(writer);
@@ -62,7 +63,7 @@ TEST(CsvWriter, WithoutCommitTheRowsAreThePartialTrace) {
 }
 
 TEST(CsvWriter, ACommitReplacesThePartialTraceOfAnEarlierRun) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   test::put(directory.path() / "trace.partial.csv", std::string(100000, '7'));
   auto writer = CsvWriter::create(directory.path(), Layout::kPlan);
   ASSERT_TRUE(writer);
@@ -82,7 +83,7 @@ double any_finite(std::mt19937_64& random) {
 }
 
 TEST(CsvWriter, EveryDoubleReadsBackBitForBit) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   constexpr std::array<std::string_view, 3> kNames{"a", "b", "c"};
   auto file = CsvFile::create(directory.path() / "a.csv", directory.path() / "a.tmp", kNames);
   ASSERT_TRUE(file);

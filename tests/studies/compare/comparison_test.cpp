@@ -40,7 +40,7 @@ class ComparisonTest : public ::testing::Test {
     };
   }
 
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
   Request request;
 };
 

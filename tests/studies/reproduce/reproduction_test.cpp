@@ -38,7 +38,7 @@ class ReproductionTest : public ::testing::Test {
   }
 
   Request request;
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
 };
 
 TEST_F(ReproductionTest, EachRowIsAnsweredInBothWays) {
@@ -83,7 +83,7 @@ TEST_F(ReproductionTest, LandingOnCurveEndsTakesLonger) {
 TEST_F(ReproductionTest, TwoTimesGiveTheSameTables) {
   const auto first = reproduce(request);
   ASSERT_TRUE(first);
-  const twin::test::TempFolder other;
+  const test::TempFolder other;
   request.folder = other.path();
   const auto second = reproduce(request);
   ASSERT_TRUE(second);

@@ -230,9 +230,9 @@ TEST(EmulatedRig, APeriodAllocatesNothing) {
                       {{FaultKind::kAlarm, kX, 0.05}, {FaultKind::kCardGone1784, kX, 0.1}});
   bench.write(0.5, 0.5);
   bench.pass(2);
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   bench.pass(200);
-  EXPECT_EQ(hal::testing::allocations(), before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_GT(bench.rig.events().written(), 3U);
 }
 

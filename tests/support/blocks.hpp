@@ -9,7 +9,7 @@
 
 #include "path/path_builder.hpp"
 
-namespace twin::path::testing {
+namespace twin::test {
 
 inline gcode::Block line_block(const Vec3& start, const Vec3& end, double feedrate = 50.0) {
   gcode::Block block;
@@ -77,12 +77,14 @@ inline std::vector<Vec3> random_walk(std::mt19937& random, int count, double sho
   return points;
 }
 
-inline std::vector<Segment> build(const std::vector<gcode::Block>& blocks,
-                                  const PathSettings& settings = {},
-                                  const PlanningModel& model = {}, const Limits& limits = {}) {
-  std::vector<Segment> segments;
-  PathBuilder builder(settings, model, limits,
-                      [&](Segment&& segment) { segments.push_back(std::move(segment)); });
+inline std::vector<path::Segment> build(const std::vector<gcode::Block>& blocks,
+                                        const PathSettings& settings = {},
+                                        const PlanningModel& model = {},
+                                        const Limits& limits = {}) {
+  std::vector<path::Segment> segments;
+  path::PathBuilder builder(settings, model, limits, [&](path::Segment&& segment) {
+    segments.push_back(std::move(segment));
+  });
   for (const gcode::Block& block : blocks) {
     builder.push(block);
   }
@@ -90,11 +92,11 @@ inline std::vector<Segment> build(const std::vector<gcode::Block>& blocks,
   return segments;
 }
 
-inline bool is_curve(const Segment& segment) {
-  return std::holds_alternative<FittedCurve>(segment.geometry);
+inline bool is_curve(const path::Segment& segment) {
+  return std::holds_alternative<path::FittedCurve>(segment.geometry);
 }
-inline bool is_line(const Segment& segment) {
-  return std::holds_alternative<Line>(segment.geometry);
+inline bool is_line(const path::Segment& segment) {
+  return std::holds_alternative<path::Line>(segment.geometry);
 }
 
 /// Distance of a point from the straight piece a b [mm].
@@ -104,4 +106,4 @@ inline double distance_to(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - along * way).norm();
 }
 
-}  // namespace twin::path::testing
+}  // namespace twin::test

@@ -1,19 +1,20 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "feedrate/profile/ramp.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 /// A change of feedrate by D with a(t) = min(J t, A, J (tau - t)), integrated numerically.
 ///
 /// tau comes from bisecting the area under a(t): nothing here uses the closed forms under test.
 class SCurve {
  public:
-  SCurve(double delta, const RampLimits& limits) : limits_(limits) {
+  SCurve(double delta, const feedrate::RampLimits& limits) : limits_(limits) {
     double low = 0.0;
     double high = 1.0;
     while (area(high) < delta) {
@@ -55,17 +56,20 @@ class SCurve {
     return limits_.jerk * turn * (tau - turn);
   }
 
-  RampLimits limits_;
+  feedrate::RampLimits limits_;
   double tau_ = 0.0;
 };
+
+inline constexpr std::array<AccelerationProfile, 3> kProfiles{
+    AccelerationProfile::kTrapezoidal, AccelerationProfile::kSCurve, AccelerationProfile::kFir};
 
 /// Number between two, evenly spread in its logarithm.
 inline double log_uniform(std::mt19937& random, double low, double high) {
   return low * std::pow(high / low, std::uniform_real_distribution<double>()(random));
 }
 
-inline RampLimits random_limits(std::mt19937& random) {
+inline feedrate::RampLimits random_limits(std::mt19937& random) {
   return {log_uniform(random, 200.0, 2e4), log_uniform(random, 5e3, 2e6)};
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

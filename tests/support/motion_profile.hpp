@@ -8,18 +8,18 @@
 #include "feedrate/limits/limit_zone.hpp"
 #include "feedrate/profile/phase.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 /// Phases one after the other, asked for the feedrate at a place.
 class MotionProfile {
  public:
-  explicit MotionProfile(std::vector<Phase> phases) : phases_(std::move(phases)) {}
+  explicit MotionProfile(std::vector<feedrate::Phase> phases) : phases_(std::move(phases)) {}
 
-  const std::vector<Phase>& phases() const { return phases_; }
+  const std::vector<feedrate::Phase>& phases() const { return phases_; }
 
   double duration() const {
     double sum = 0.0;
-    for (const Phase& phase : phases_) {
+    for (const feedrate::Phase& phase : phases_) {
       sum += phase.duration;
     }
     return sum;
@@ -27,25 +27,26 @@ class MotionProfile {
 
   /// Feedrate where the profile passes s [mm/s].
   double feedrate_at(double s) const {
-    auto next = std::upper_bound(phases_.begin(), phases_.end(), s,
-                                 [](double place, const Phase& phase) { return place < phase.s; });
-    const Phase& phase = next == phases_.begin() ? *next : *std::prev(next);
-    return motion_at(phase, time_at(phase, s)).v;
+    auto next = std::upper_bound(
+        phases_.begin(), phases_.end(), s,
+        [](double place, const feedrate::Phase& phase) { return place < phase.s; });
+    const feedrate::Phase& phase = next == phases_.begin() ? *next : *std::prev(next);
+    return feedrate::motion_at(phase, feedrate::time_at(phase, s)).v;
   }
 
  private:
-  std::vector<Phase> phases_;
+  std::vector<feedrate::Phase> phases_;
 };
 
 /// A time that no motion within the acceleration A alone can beat, whatever its jerk: forward and
 /// backward over a grid, every grid cell at the highest feedrate that is possible anywhere in it.
-inline double acceleration_bound(const std::vector<LimitZone>& zones, double v_start, double v_end,
-                                 double acceleration, int cells) {
+inline double acceleration_bound(const std::vector<feedrate::LimitZone>& zones, double v_start,
+                                 double v_end, double acceleration, int cells) {
   const double begin = zones.front().begin;
   const double step = (zones.back().end - begin) / cells;
   std::vector<double> square(static_cast<std::size_t>(cells) + 1, 0.0);
   std::vector<double> cell_limit(static_cast<std::size_t>(cells), 0.0);
-  for (const LimitZone& zone : zones) {
+  for (const feedrate::LimitZone& zone : zones) {
     const int from = std::clamp(static_cast<int>((zone.begin - begin) / step - 1e-6), 0, cells - 1);
     const int to = std::clamp(static_cast<int>((zone.end - begin) / step + 1e-6), 0, cells - 1);
     for (auto i = static_cast<std::size_t>(from);
@@ -71,4 +72,4 @@ inline double acceleration_bound(const std::vector<LimitZone>& zones, double v_s
   return time;
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test
