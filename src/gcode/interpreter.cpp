@@ -1,6 +1,6 @@
 #include "gcode/interpreter.hpp"
 
-#include "gcode/arc.hpp"
+#include "gcode/arc_words.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/word_rules.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/number.hpp"
 
 namespace twin::gcode {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 
 namespace twin::gcode {
 namespace {

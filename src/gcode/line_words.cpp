@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "gcode/fault.hpp"
 #include "gcode/letters.hpp"
 #include "gcode/lexer.hpp"
 

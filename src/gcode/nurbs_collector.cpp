@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/modal_state.hpp"
 

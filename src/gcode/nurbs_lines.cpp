@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "gcode/fault.hpp"
 #include "gcode/interpreter.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 
 /// The part of Interpreter that hands the lines of a NURBS to NurbsCollector.

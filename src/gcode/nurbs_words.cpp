@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/modal_state.hpp"
 #include "gcode/nurbs_collector.hpp"

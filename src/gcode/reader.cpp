@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 
 namespace twin::gcode {
 namespace {

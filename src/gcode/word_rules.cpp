@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/modal_state.hpp"
 

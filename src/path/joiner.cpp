@@ -215,7 +215,7 @@ void Joiner::put_body(Element& element, double end) {
   if (element.kind == Kind::kArc) {
     const bool is_whole = element.from == element.begin && end == element.end;
     writer_.arc(is_whole ? element.arc
-                         : arc_part(element.arc, element.from - element.begin, end - element.begin),
+                         : part_of(element.arc, element.from - element.begin, end - element.begin),
                 element.from, end);
   } else if (element.kind == Kind::kLine &&
              length >= std::min(kMergedLine, element.end - element.begin)) {

@@ -6,7 +6,7 @@
 #include "geometry/smoothing/corner_bump.hpp"
 #include "geometry/smoothing/run_spline.hpp"
 #include "geometry/smoothing/sliding_vector.hpp"
-#include "path/arc_part.hpp"
+#include "path/arc_pieces.hpp"
 #include "path/segment_writer.hpp"
 
 namespace twin::path {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "geometry/nurbs/deviation.hpp"
-#include "path/curve_segment.hpp"
 #include "path/path_builder.hpp"
 
 namespace twin::path {

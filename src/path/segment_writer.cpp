@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "geometry/smoothing/piecewise.hpp"
-#include "path/curve_segment.hpp"
 
 namespace twin::path {
 namespace {

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 
-#include "geometry/nurbs/gauss_legendre.hpp"
+#include "geometry/gauss_legendre.hpp"
 #include "geometry/smoothing/run_spline.hpp"
 
 namespace twin::geometry {
 namespace {
+
+using FivePoints = gauss::Rule<5>;
 
 /// Begins a row of points at a run's begin, before its first inner point: reflected about it.
 void begin_reflected(const Vec3& at, const Vec3& first, SlidingVector<Vec3>& points) {
@@ -74,9 +76,9 @@ Vec3 RunSpline::refitted(std::size_t i) const noexcept {
   for (const std::size_t span : {i - 2, i - 1}) {
     const geometry::SpanCubic cubic = cubic_of(raw_, span);
     const double half = 0.5 * (cubic.end - cubic.begin);
-    for (int k = 0; k < geometry::gauss::kPoints; ++k) {
-      const double s = cubic.begin + half * (1.0 + geometry::gauss::kNodes[k]);
-      sum += (half * geometry::gauss::kWeights[k] * kernel.at(s)) * (cubic.position(s) - raw_[i]);
+    for (int k = 0; k < 5; ++k) {
+      const double s = cubic.begin + half * (1.0 + FivePoints::kNodes[k]);
+      sum += (half * FivePoints::kWeights[k] * kernel.at(s)) * (cubic.position(s) - raw_[i]);
     }
   }
   return raw_[i] + sum;

@@ -38,7 +38,7 @@ double block_length(const gcode::Block& block, View view) noexcept;
 /// Place of a block between two fractions that is nearest to a point.
 ///
 /// Line: the foot of the perpendicular. Arc and helix: no chords; the squared distance
-///   D(f) = |C(f) - p|^2,  C(f) of gcode::ArcGeometry,
+///   D(f) = |C(f) - p|^2,  C(f) of geometry::Arc,
 /// is sampled every 15 deg, and beside each sample that is lower than its neighbours the root of
 /// D'(f) is found by Newton's method inside a bracket, to 1e-13 of the way. (A helix has a minimum
 /// on each turn.) A tilted arc seen along Z, an ellipse, is sampled finer and finer instead.

@@ -7,9 +7,6 @@
 
 namespace twin::path {
 
-/// Part of an arc between two of its arc lengths, exact.
-Arc arc_part(const Arc& arc, double from, double to) noexcept;
-
 /// A stretch of an arc as C2 cubic pieces in its arc length.
 ///
 /// A clamped B-spline on equal spans of width w. Its first and last three control points give it
