@@ -11,7 +11,7 @@ namespace twin::gcode {
 /// more.
 inline constexpr double kRadiusSlack = 0.02;
 
-/// What a line with G02 or G03 says besides the centre.
+/// What a line with G02 or G03 says apart from its centre or radius.
 struct ArcEnds {
   Vec3 start = Vec3::Zero();  ///< [mm]
   Vec3 end = Vec3::Zero();    ///< [mm]
@@ -37,7 +37,7 @@ struct ProgrammedArc {
 /// @param ends    start, end, plane and sense
 /// @param offset  from the start to the centre; its part along the third axis is not used [mm]
 /// @returns the arc, or an error with column 0 if the radius is zero or the ends do not lie on one
-/// circle
+///          circle
 Expected<ProgrammedArc> arc_by_offset(const ArcEnds& ends, const Vec3& offset);
 
 /// Arc of a given radius (R), less than half a turn for R > 0, more for R < 0.
@@ -50,8 +50,7 @@ Expected<ProgrammedArc> arc_by_offset(const ArcEnds& ends, const Vec3& offset);
 /// @param ends    start, end, plane and sense
 /// @param radius  radius with sign [mm]
 /// @returns the arc, or an error with column 0 if the radius is zero or cannot span the chord, or
-/// if start
-///          and end are the same point
+///          if start and end are the same point
 Expected<ProgrammedArc> arc_by_radius(const ArcEnds& ends, double radius);
 
 }  // namespace twin::gcode

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -25,14 +28,15 @@ struct Word {
 ///
 ///   line = { blank | comment | word }
 ///   word = letter { blank } [ sign ] digits-with-point
-/// Comments are ( to ) without nesting, and ; to the end of the line.
+/// A comment goes from ( to ) and has no comment inside, or from ; to the end of the line.
 class Lexer {
  public:
   /// @param line  one line without its end; must outlive the lexer
   explicit Lexer(std::string_view line) : line_(line) {}
 
-  /// Reads the next word; false at the end of the line.
-  Expected<bool> next(Word& word);
+  /// Reads the next word.
+  /// @returns the word, nothing at the end of the line, or an error with its column
+  Expected<std::optional<Word>> next();
 
  private:
   Expected<void> skip_blanks_and_comments();

@@ -90,7 +90,8 @@ TEST(MakeSegment, OfAnExactStopBlockStopsAtItsEnd) {
 FittedCurve circle_curve(double radius, double chord, int count) {
   geometry::Fitter fitter;
   FittedCurve fitted;
-  EXPECT_TRUE(fitter.fit(testing::circle_points(radius, chord, count), {}, {}, fitted.curve));
+  EXPECT_EQ(fitter.fit(testing::circle_points(radius, chord, count), {}, {}, fitted.curve),
+            geometry::FitResult::kFitted);
   measure(fitted);
   return fitted;
 }

@@ -42,7 +42,7 @@ struct Tangent {
   }
 };
 
-/// Whether one application of the quadrature to sqrt(q) is good enough, Eq. (1).
+/// Whether one application of the quadrature to sqrt(q) is good enough, Eqs. (1) and (2).
 bool is_smooth(const Quartic& q, double half) noexcept {
   double sum = 0.0;
   for (std::size_t k = 4; k >= 1; --k) {

@@ -52,7 +52,7 @@ Curve random_fit(test::RandomCurves& random, int blocks, double turn) {
   }
   Fitter fitter;
   Curve curve;
-  EXPECT_TRUE(fitter.fit(points, {}, {}, curve));
+  EXPECT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
   return curve;
 }
 
@@ -190,7 +190,7 @@ TEST(ArcLength, OfAStraightRunIsItsChords) {
   }
   Fitter fitter;
   Curve curve;
-  ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+  ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
   ArcLength arc;
   arc.build(curve);
   EXPECT_NEAR(arc.length(), 10.3, 1e-12);
