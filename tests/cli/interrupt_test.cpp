@@ -73,7 +73,27 @@ TEST_P(InterruptInSimulatedTime, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptInSimulatedTime, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& test) { return test.param == SIGINT ? "Int" : "Term"; });
 
-using InterruptTwice = Interrupt;
+class InterruptTwice : public Interrupt {
+ protected:
+  /// Waits until a process no longer catches a signal: it has taken the first, and the next will
+  /// end it. The signals that it catches are a hexadecimal mask in /proc.
+  static bool lets_go_of(pid_t process, int signal) {
+    const std::string key = "SigCgt:";
+    for (int i = 0; i < 5000; ++i) {
+      const std::string status = test::content("/proc/" + std::to_string(process) + "/status");
+      const std::size_t at = status.find(key);
+      if (at == std::string::npos) {
+        return false;
+      }
+      const auto caught = std::stoull(status.substr(at + key.size()), nullptr, 16);
+      if ((caught >> (signal - 1) & 1U) == 0) {
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+};
 
 TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
   test::Child child(
@@ -81,7 +101,7 @@ TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
       {folder.path(), {}});  // so gentle that braking takes two seconds
   wait_for_samples();
   child.signal(GetParam());
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ASSERT_TRUE(lets_go_of(child.pid(), GetParam()));
   child.signal(GetParam());
   EXPECT_EQ(child.wait().status, 128 + GetParam());
   EXPECT_FALSE(exists("out/trace.csv"));
