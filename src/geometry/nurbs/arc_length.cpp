@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/root.hpp"
 #include "geometry/nurbs/cross.hpp"
 #include "geometry/nurbs/gauss_legendre.hpp"
 
@@ -15,8 +16,7 @@ constexpr int kMaxDepth = 40;               // halvings of one span
 constexpr double kRounding = 1e-13;         // of the coordinates, seen in a length
 constexpr int kHalvings = 32;               // allowed per span, on average
 constexpr int kMoreHalvings = 2000;         // and beyond that
-constexpr int kMaxIterations = 60;
-constexpr double kRadius = 8.0;  // R of Eq. (1)
+constexpr double kRadius = 8.0;             // R of Eq. (1)
 
 using Quartic = std::array<double, 5>;
 
@@ -207,27 +207,18 @@ double ArcLength::u_at(const Curve& curve, double s, double u_guess) const noexc
                                       [](double at, const Interval& i) { return at < i.s; });
   const Interval& interval = *(above - 1);
   const double interval_length = (above == intervals_.end() ? length_ : above->s) - interval.s;
-  double low = -1.0;
-  double high = 1.0;
   double x = (u_guess - interval.begin) / interval.half - 1.0;
-  if (!(x >= low && x <= high)) {
+  if (!(x >= -1.0 && x <= 1.0)) {
     x = 2.0 * (s - interval.s) / interval_length - 1.0;
   }
-  for (int i = 0; i < kMaxIterations; ++i) {
-    const double error = interval.s + partial(curve, interval, x) - s;
-    if (std::abs(error) <= 0.01 * kPlaceTolerance) {
-      break;
-    }
-    (error > 0.0 ? high : low) = x;
-    const double step = error / (speed(curve, interval, x) * interval.half);
-    const bool inside = x - step > low && x - step < high;  // false for NaN
-    x = inside ? x - step : 0.5 * (low + high);
-    // Newton leaves |f''| / (2 |f'|) step^2, and the speed varies by less than itself over an
-    // interval.
-    if (inside && step * step * interval_length < 0.1 * kPlaceTolerance) {
-      break;
-    }
-  }
+  const auto error_at = [&](double at) {
+    return ValueAndSlope{interval.s + partial(curve, interval, at) - s,
+                         speed(curve, interval, at) * interval.half};
+  };
+  // A Newton step leaves |f''| / (2 |f'|) step^2, and the speed varies by less than itself over an
+  // interval.
+  const double last_step = std::sqrt(0.1 * kPlaceTolerance / interval_length);
+  x = bracketed_newton(error_at, -1.0, 1.0, x, {0.01 * kPlaceTolerance, last_step}).x;
   return interval.begin + interval.half * (1.0 + x);
 }
 

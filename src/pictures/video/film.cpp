@@ -50,19 +50,10 @@ Film::Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width
 Expected<Film> Film::create(const std::filesystem::path& trace_csv,
                             const std::filesystem::path& scene_xml, const std::string& camera,
                             int width, int height, int samples) {
-  auto survey = survey_trace(trace_csv);
-  if (!survey) {
-    return tl::unexpected(std::move(survey.error()));
-  }
-  auto rows = TraceRows::open(trace_csv);
-  if (!rows) {
-    return tl::unexpected(std::move(rows.error()));
-  }
-  auto scene = TableScene::create(scene_xml, camera, width, height, samples);
-  if (!scene) {
-    return tl::unexpected(std::move(scene.error()));
-  }
-  return Film(*survey, std::move(*rows), std::move(*scene), width, height);
+  TWIN_TRY(const Survey survey, survey_trace(trace_csv));
+  TWIN_TRY(TraceRows rows, TraceRows::open(trace_csv));
+  TWIN_TRY(TableScene scene, TableScene::create(scene_xml, camera, width, height, samples));
+  return Film(survey, std::move(rows), std::move(scene), width, height);
 }
 
 Overlay Film::make_overlay(const std::string& title) {
@@ -76,11 +67,7 @@ Expected<void> Film::play_until(double t) {
       plate_.advance(shown_);
       inset_.advance(shown_);
     }
-    auto got = rows_.next(next_);
-    if (!got) {
-      return tl::unexpected(std::move(got.error()));
-    }
-    has_next_ = *got;
+    TWIN_TRY(has_next_, rows_.next(next_));
     if (std::exchange(is_first_, false) && has_next_) {
       shown_ = next_;
     }
@@ -89,9 +76,7 @@ Expected<void> Film::play_until(double t) {
 }
 
 Expected<Shot> Film::shoot(double t) {
-  if (auto played = play_until(t); !played) {
-    return tl::unexpected(std::move(played.error()));
-  }
+  TWIN_CHECK(play_until(t));
   scene_.move_to(shown_.position);
   scene_.set_drawing(plate_.canvas().image(), plate_.canvas().take_changed());
   Shot shot{Image(width_, height_),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/root.hpp"
 #include "gcode/programmed_curve.hpp"
 #include "results/metrics/nurbs_distance.hpp"
 
@@ -16,9 +17,9 @@ using gcode::ArcGeometry;
 using gcode::Block;
 using gcode::Motion;
 
-constexpr double kStep = 0.26;       // sampling of an arc: just under 15 deg [rad]
-constexpr int kZoom = 16;            // samples per round where Newton's method does not serve
-constexpr int kMostIterations = 60;  // Newton needs 4; bisection alone 50
+constexpr double kStep = 0.26;           // sampling of an arc: just under 15 deg [rad]
+constexpr int kZoom = 16;                // samples per round where Newton's method does not serve
+constexpr double kSameFraction = 1e-13;  // two fractions of an arc that are one
 
 /// C(f), C'(f), C''(f) of an arc.
 struct ArcPoint {
@@ -39,36 +40,23 @@ ArcPoint evaluate(const ArcGeometry& g, double f) noexcept {
 }
 
 /// Half the derivative of the squared distance at f, and the derivative of that.
-std::array<double, 2> slope(const ArcGeometry& g, const Vec3& p, View view, double f) noexcept {
+ValueAndSlope slope(const ArcGeometry& g, const Vec3& p, View view, double f) noexcept {
   const ArcPoint at = evaluate(g, f);
   const Vec3 d = seen(at.position - p, view);
   return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
 }
 
-/// Minimum of the squared distance within [lo, hi] that holds just one, by bracketed Newton steps.
+/// Minimum of the squared distance within [lo, hi] that holds just one, by Newton's method.
 double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
-  if (slope(g, p, view, lo)[0] >= 0.0) {
+  if (slope(g, p, view, lo).value >= 0.0) {
     return lo;
   }
-  if (slope(g, p, view, hi)[0] <= 0.0) {
+  if (slope(g, p, view, hi).value <= 0.0) {
     return hi;
   }
-  double f = 0.5 * (lo + hi);
-  for (int i = 0; i < kMostIterations; ++i) {
-    const auto [first, second] = slope(g, p, view, f);
-    (first > 0.0 ? hi : lo) = f;
-    double next = f - first / second;
-    if (!(second > 0.0 && next > lo &&
-          next < hi)) {  // not towards a maximum, not out of the bracket
-      next = 0.5 * (lo + hi);
-    }
-    const bool is_done = std::abs(next - f) < 1e-13;
-    f = next;
-    if (is_done) {
-      break;
-    }
-  }
-  return f;
+  const auto slope_at = [&](double f) { return slope(g, p, view, f); };
+  return bracketed_newton(slope_at, lo, hi, 0.5 * (lo + hi), {-1.0, kSameFraction, kSameFraction})
+      .x;
 }
 
 /// The same by ever finer sampling, for an arc seen edge-on: its twin minima may be as close as

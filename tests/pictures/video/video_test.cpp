@@ -1,4 +1,4 @@
-#include "pictures/video/video.hpp"
+#include "pictures/video/renderer.hpp"
 
 #include <gmock/gmock.h>
 
@@ -185,7 +185,7 @@ TEST(Video, ItIsAsLongAsTheMachiningToTheNearestFrame) {
   VideoInput input = small_video(directory.path(), 0.42);
   std::vector<double> progress;
   input.progress = [&](double part) { progress.push_back(part); };
-  const auto report = write_video(input);
+  const auto report = render_video(input);
   ASSERT_TRUE(report) << to_string(report.error());
   EXPECT_EQ(report->frames, 13);  // 0.42 s x 30 frames/s = 12.6
   const Played played = play(input.output);
@@ -262,7 +262,7 @@ TEST(Video, AStillIsAPngOfTheSizeAskedFor) {
 
 /// The error of a video with one thing wrong; no file may be left.
 std::string complaint(VideoInput input) {
-  const auto report = write_video(input);
+  const auto report = render_video(input);
   EXPECT_FALSE(fs::exists(input.output));
   EXPECT_FALSE(fs::exists(input.output.string() + ".tmp"));
   return report ? "" : to_string(report.error());

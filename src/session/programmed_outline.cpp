@@ -1,4 +1,4 @@
-#include "cli/programmed_outline.hpp"
+#include "session/programmed_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "results/metrics/block_distance.hpp"
 #include "results/trace/pen.hpp"
 
-namespace twin::cli {
+namespace twin::session {
 namespace {
 
 constexpr double kChordAngle = 0.02;  // of an arc [rad]
@@ -108,4 +108,4 @@ std::vector<Vec2> programmed_outline(const std::filesystem::path& program) {
   return outline.empty() ? read_outline(program, false) : outline;
 }
 
-}  // namespace twin::cli
+}  // namespace twin::session
