@@ -11,7 +11,7 @@
 namespace twin {
 namespace published_test {
 
-/// A row of the README's first table: a program at one feedrate.
+/// A row of the first table of docs/results.md: a program at one feedrate.
 struct Claimed {
   double planned_time;       ///< [s]
   const char* difference;    ///< against the paper's time [%]
@@ -28,8 +28,8 @@ struct Published {
   double command_error_rms;                 // [um], Table 3
   std::array<double, 3> time;               // at 1,000, 2,000 and 3,000 mm/min [s], Tables 4 and 5
   std::array<Claimed, 3> claimed;           // the same
-  double table_error_max, table_error_rms;  // at 3,000 mm/min, README [um]
-  double ideal_error_max, ideal_error_rms;  // without friction, with ideal gains, README [um]
+  double table_error_max, table_error_rms;  // at 3,000 mm/min [um]
+  double ideal_error_max, ideal_error_rms;  // without friction, with ideal gains [um]
 };
 
 const std::array<Published, 2> kPublished{
