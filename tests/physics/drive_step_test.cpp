@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 // The table's velocity after a step of the drive command, without friction and disturbance.
 namespace twin::hal::mujoco {
@@ -57,7 +57,7 @@ double closed_form(const Case& c, double t) {
 class VelocityStep : public ::testing::TestWithParam<Case> {};
 
 TEST_P(VelocityStep, FollowsItsClosedFormWithinOnePercentOfTheFinalValue) {
-  TableParams params = testing::faultless_table();
+  TableParams params = test::faultless_table();
   params.physics_step = 1e-5;
   for (AxisParams& axis : params.axis) {
     axis.drive.velocity_gain_Hz = GetParam().gain_Hz;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 // Friction of the whole table at rest and about to move, servo off: MuJoCo's slide and the bristle
 // together.
@@ -20,7 +20,7 @@ double breakaway(const AxisParams& axis) {
 
 class PushedTable : public ::testing::TestWithParam<Axis> {
  protected:
-  TableParams params = testing::default_table();
+  TableParams params = test::default_table();
   MujocoMachine machine{params};
   Axis axis = GetParam();
   double held = breakaway(params.axis[GetParam()]);  // breakaway force [N]

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "results/trace/csv_reader.hpp"
-#include "tests/runtime/fake_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
+#include "tests/support/fake_machine.hpp"
 
 // The rows of a run go to any number of sinks; one that fails ends the run like any other fault.
 namespace twin::runtime {

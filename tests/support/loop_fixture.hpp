@@ -31,10 +31,11 @@ class LoopTest : public ::testing::Test {
     return execute(nc, machine(), nullptr, feedrate);
   }
 
-  results::Summary run(const std::filesystem::path& nc, const std::string& machine_name) const {
+  results::Summary run(const std::filesystem::path& nc, const std::string& machine_name,
+                       std::optional<double> feedrate = std::nullopt) const {
     const config::MachineFile file = machine(machine_name);
     hal::mujoco::MujocoMachine table(file.table);
-    return execute(nc, file, &table, std::nullopt);
+    return execute(nc, file, &table, feedrate);
   }
 
   results::Summary execute(const std::filesystem::path& nc, const config::MachineFile& file,

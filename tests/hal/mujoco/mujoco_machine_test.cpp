@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/hal/position_loop.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/position_loop.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::mujoco {
 namespace mujoco_machine_test {
 
-using testing::default_table;
+using test::default_table;
 
 constexpr double kPeriod = 1e-3;  // [s]
 
@@ -49,17 +49,16 @@ TEST(MujocoMachine, ReversedScalesReverseBothTheWireAndTheCount) {
   params.axis[kX].drive.vref_scale_rpm_per_V = -500.0;
   params.axis[kY].encoder.mm_per_count = -0.010;
   MujocoMachine machine(params);
-  const auto rows = testing::run_loop(
-      machine, testing::default_gains(), kPeriod, 0.5,
-      [](double t) { return testing::on_circle(10.0, testing::smooth_start(t, 20.0, 0.1)); });
+  const auto rows = test::run_loop(machine, test::default_gains(), kPeriod, 0.5, [](double t) {
+    return test::on_circle(10.0, test::smooth_start(t, 20.0, 0.1));
+  });
   EXPECT_LT(
-      testing::spread(rows, 0, [](const testing::Row& r) { return testing::circle_error(r, 10.0); })
-          .max,
+      test::spread(rows, 0, [](const test::Row& r) { return test::circle_error(r, 10.0); }).max,
       0.04);
 }
 
 TEST(MujocoMachine, OutputsArriveAfterTheOutputDelay) {
-  TableParams params = testing::faultless_table();
+  TableParams params = test::faultless_table();
   params.axis[kX].drive.output_delay = 3e-3;
   params.axis[kX].drive.ready_delay = 0.0;
   MujocoMachine machine(params);
@@ -156,7 +155,7 @@ TEST(MujocoMachine, PenFollowsItsReferenceWithoutOvershoot) {
 
 TEST(MujocoMachine, UnstablePhysicsIsAnErrorWithTheTimeAndWhatToDo) {
   TableParams params = default_table();
-  params.model = testing::mjcf_file("xy_table_compliant.xml");
+  params.model = test::mjcf_file("xy_table_compliant.xml");
   params.physics_step = 1e-3;  // far too coarse for the screw's resonance
   params.axis[kX].screw.stiffness = 1e6;
   params.axis[kX].drive.velocity_gain_Hz = 100.0;
@@ -189,8 +188,8 @@ TEST(MujocoMachine, SaddleLighterThanWhatItCarriesIsRefused) {
 // A push of known force on the free, frictionless slide shows the mass that MuJoCo really moves.
 TEST(MujocoMachine, SlidesHaveTheMassOfTheParametersWithTheRotor) {
   for (const char* model : {"xy_table.xml", "xy_table_compliant.xml"}) {
-    TableParams params = testing::faultless_table();
-    params.model = testing::mjcf_file(model);
+    TableParams params = test::faultless_table();
+    params.model = test::mjcf_file(model);
     params.axis[kX].moving_mass = 7.0;
     params.axis[kY].moving_mass = 26.0;
     MujocoMachine machine(params);

@@ -12,7 +12,7 @@ namespace rig_faults_test {
 
 using ::testing::HasSubstr;
 
-using RigFaults = testing::FakeRig;
+using RigFaults = test::FakeRig;
 
 TEST_F(RigFaults, AVanishedPci1716IsNamed) {
   const auto machine = running();
@@ -112,7 +112,7 @@ TEST_F(RigFaults, NothingMovesAfterTheGuardHasActed) {
   outputs.servo_on = {true, true};
   EXPECT_EQ(machine->write(outputs), Status::kError);
   EXPECT_THAT(machine->last_error(), HasSubstr("the guard has made the outputs safe"));
-  for (const testing::Access& access : pci1716.writes()) {
+  for (const test::Access& access : pci1716.writes()) {
     EXPECT_TRUE(access.value == 0x8000 || access.value == 0x0101 || access.value == 0);
   }
   EXPECT_FALSE(checked(machine->activate()));

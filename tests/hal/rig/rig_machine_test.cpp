@@ -9,10 +9,10 @@
 namespace twin::hal::rig {
 namespace rig_machine_test {
 
+using test::FakeRig;
+using test::wrote;
 using ::testing::ElementsAre;
-using testing::FakeRig;
 using ::testing::HasSubstr;
-using testing::wrote;
 
 using RigMachineTest = FakeRig;
 
@@ -97,7 +97,7 @@ TEST_F(RigMachineTest, AnAlarmIsResetByAPulseOnItsOwnDriveOnly) {
   const auto machine = make();
   ASSERT_TRUE(checked(machine->configure(kPeriod)));
   pci1716.answers[kDigital] = kHealthy & ~(1 << 4);  // Y
-  pci1716.on_write = [this](const testing::Access& access) {
+  pci1716.on_write = [this](const test::Access& access) {
     if (access.offset == kDigital && (access.value & 1 << 3) != 0) {
       pci1716.answers[kDigital] = kHealthy;
     }
@@ -105,7 +105,7 @@ TEST_F(RigMachineTest, AnAlarmIsResetByAPulseOnItsOwnDriveOnly) {
   pci1716.log.clear();
   ASSERT_TRUE(checked(machine->activate()));
   std::vector<std::uint32_t> outputs;
-  for (const testing::Access& access : pci1716.writes()) {
+  for (const test::Access& access : pci1716.writes()) {
     if (access.offset == kDigital) {
       outputs.push_back(access.value);
     }

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "emulated_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/emulated_machine.hpp"
+#include "tests/support/table_files.hpp"
 
 // The switch: the simulated table and the drivers over emulated cards are the same machine.
 namespace twin::hal::rig {
@@ -16,11 +16,11 @@ constexpr double kPeriod = 1e-3;  // [s]
 
 class Switch : public ::testing::Test {
  protected:
-  Switch() { table.model = hal::testing::mjcf_file("xy_table.xml"); }
+  Switch() { table.model = test::mjcf_file("xy_table.xml"); }
 
   std::unique_ptr<RigMachine> make() {
     bench = std::make_shared<emulator::EmulatedRig>(table, settings);
-    return testing::make_emulated(table, bench, settings);
+    return test::make_emulated(table, bench, settings);
   }
   static Outputs outputs(int k) {
     Outputs o;

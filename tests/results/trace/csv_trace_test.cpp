@@ -9,8 +9,8 @@
 
 #include "results/trace/columns.hpp"
 #include "results/trace/csv_reader.hpp"
-#include "tests/support/synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::results {

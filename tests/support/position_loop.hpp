@@ -9,9 +9,9 @@
 #include "hal/machine.hpp"
 #include "motion/servo/axis_scaling.hpp"
 #include "motion/servo/axis_servo.hpp"
-#include "tests/hal/motions.hpp"
+#include "tests/support/motions.hpp"
 
-namespace twin::hal::testing {
+namespace twin::test {
 
 /// One period of a closed loop [mm].
 struct Row {
@@ -36,7 +36,7 @@ inline std::array<motion::Gains, 2> default_gains() {
 
 /// Configures and activates a machine, holds it for 0.3 s, then moves it for some time.
 /// @param motion set point at a time since the start [s]
-inline std::vector<Row> run_loop(Machine& machine, const std::array<motion::Gains, 2>& g,
+inline std::vector<Row> run_loop(hal::Machine& machine, const std::array<motion::Gains, 2>& g,
                                  double period, double duration,
                                  const std::function<PlanePoint(double)>& motion) {
   if (auto result = checked(machine.configure(period)); !result) {
@@ -45,18 +45,18 @@ inline std::vector<Row> run_loop(Machine& machine, const std::array<motion::Gain
   if (auto result = checked(machine.activate()); !result) {
     throw std::runtime_error(to_string(result.error()));
   }
-  const MachineInfo& info = machine.info();
+  const hal::MachineInfo& info = machine.info();
   std::array<motion::AxisServo, 2> servos{
       motion::AxisServo(g[0], info.mm_per_s_per_volt[0], period),
       motion::AxisServo(g[1], info.mm_per_s_per_volt[1], period)};
   const int hold = static_cast<int>(std::lround(0.3 / period));
   const int periods = static_cast<int>(std::lround(duration / period));
   std::vector<Row> rows;
-  Inputs inputs;
-  Outputs outputs;
+  hal::Inputs inputs;
+  hal::Outputs outputs;
   outputs.servo_on = {true, true};
   for (int k = -hold; k < periods; ++k) {
-    if (machine.read(inputs) != Status::kOk) {
+    if (machine.read(inputs) != hal::Status::kOk) {
       throw std::runtime_error(machine.last_error());
     }
     const PlanePoint point = motion(k < 0 ? 0.0 : k * period);
@@ -68,7 +68,7 @@ inline std::vector<Row> run_loop(Machine& machine, const std::array<motion::Gain
           {point.position[a], point.velocity[a], point.acceleration[a]}, row.encoder[a]);
       outputs.position_reference[a] = point.position[a];
     }
-    if (machine.write(outputs) != Status::kOk) {
+    if (machine.write(outputs) != hal::Status::kOk) {
       throw std::runtime_error(machine.last_error());
     }
     row.table = machine.truth().table_position;
@@ -106,4 +106,4 @@ inline double circle_error(const Row& row, double radius) {
   return std::hypot(row.encoder[0] + radius, row.encoder[1]) - radius;
 }
 
-}  // namespace twin::hal::testing
+}  // namespace twin::test

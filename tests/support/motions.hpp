@@ -4,7 +4,7 @@
 #include <numbers>
 
 /// Smooth plane motions in closed form, for driving a machine in tests.
-namespace twin::hal::testing {
+namespace twin::test {
 
 /// A quantity with its first and second time derivative.
 struct Motion1 {
@@ -54,4 +54,4 @@ inline PlanePoint on_circle(double radius, const Motion1& s) {
   return p;
 }
 
-}  // namespace twin::hal::testing
+}  // namespace twin::test

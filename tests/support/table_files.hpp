@@ -4,7 +4,7 @@
 
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal::testing {
+namespace twin::test {
 
 /// A file of the repository's mjcf folder.
 inline std::string mjcf_file(const std::string& name) {
@@ -12,16 +12,16 @@ inline std::string mjcf_file(const std::string& name) {
 }
 
 /// The table as the machine file has it.
-inline mujoco::TableParams default_table() {
-  mujoco::TableParams params;
+inline hal::mujoco::TableParams default_table() {
+  hal::mujoco::TableParams params;
   params.model = mjcf_file("xy_table.xml");
   return params;
 }
 
 /// The table without friction, disturbance, delay, lag and visible quantisation.
-inline mujoco::TableParams faultless_table() {
-  mujoco::TableParams params = default_table();
-  for (mujoco::AxisParams& axis : params.axis) {
+inline hal::mujoco::TableParams faultless_table() {
+  hal::mujoco::TableParams params = default_table();
+  for (hal::mujoco::AxisParams& axis : params.axis) {
     axis.friction.coulomb = 0.0;
     axis.friction.viscous = 0.0;
     axis.drive.hum_amplitude = 0.0;
@@ -35,4 +35,4 @@ inline mujoco::TableParams faultless_table() {
   return params;
 }
 
-}  // namespace twin::hal::testing
+}  // namespace twin::test

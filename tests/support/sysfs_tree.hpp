@@ -7,7 +7,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/temp_folder.hpp"
 
-namespace twin::hal::rig::testing {
+namespace twin::test {
 
 /// A made-up sysfs with PCI cards whose registers are plain files.
 class SysfsTree {
@@ -15,7 +15,7 @@ class SysfsTree {
   /// Readable for every user, as /sys is.
   SysfsTree() { std::filesystem::permissions(folder_.path(), std::filesystem::perms(0755)); }
   std::string root() const { return folder_.path().string(); }
-  const test::TempFolder& folder() const { return folder_; }
+  const TempFolder& folder() const { return folder_; }
   static std::string inside(const std::string& address, const std::string& file) {
     return "bus/pci/devices/" + address + "/" + file;
   }
@@ -38,7 +38,7 @@ class SysfsTree {
     folder_.put(inside(address, file), text);
   }
   std::string get(const std::string& address, const std::string& file) const {
-    return test::content(folder_ / inside(address, file));
+    return content(folder_ / inside(address, file));
   }
   void bind(const std::string& address, const std::string& driver) const {
     std::filesystem::create_directory_symlink("../../../../bus/pci/drivers/" + driver,
@@ -46,7 +46,7 @@ class SysfsTree {
   }
 
  private:
-  test::TempFolder folder_;
+  TempFolder folder_;
 };
 
-}  // namespace twin::hal::rig::testing
+}  // namespace twin::test
