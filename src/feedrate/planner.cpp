@@ -112,7 +112,7 @@ bool raise_limits(Window& window, double last, const RampLimits& ramp) {
 std::unique_ptr<PlannerParts> make_planner(const Limits& limits, const PlanningModel& model,
                                            const PathSettings& settings, double period) {
   Settings all{limits, model, settings, period};
-  if (is_certified(settings, model)) {
+  if (settings.planner == Planner::kCertified) {
     return std::make_unique<CertifiedPlanner>(std::move(all));
   }
   return std::make_unique<PaperPlanner>(std::move(all));

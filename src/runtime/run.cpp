@@ -219,10 +219,10 @@ results::Summary Run::summarise(double wall_time) {
   summary.program = request_.program.filename().string();
   summary.machine = request_.machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
-  summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
+  summary.interpolator = kCurveNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
-  put_into(summary, plan_figures_, is_certified(request_.machine.path, request_.machine.planning));
+  put_into(summary, plan_figures_, request_.machine.path.planner == Planner::kCertified);
   summary.planned_time = planned_time_.value_or(plan_figures_.time);
   summary.overrides = feed_.records();
   recorder_.summarise(summary);

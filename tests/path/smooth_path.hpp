@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "gcode/arc.hpp"
+#include "geometry/arc.hpp"
 #include "path/smooth_builder.hpp"
 #include "tests/support/blocks.hpp"
 
@@ -50,7 +50,7 @@ inline std::vector<Vec3> program_points(const gcode::Block& block, int count) {
   for (int i = 0; i <= count; ++i) {
     const double f = static_cast<double>(i) / count;
     points.push_back(block.motion == gcode::Motion::kArc
-                         ? gcode::point_at(block.arc, f)
+                         ? geometry::point_at(block.arc, f)
                          : Vec3(block.start + f * (block.end - block.start)));
   }
   return points;
@@ -92,7 +92,7 @@ inline double distance_to_block(const Vec3& p, const gcode::Block& block) {
     return distance_to(p, block.start, block.end);
   }
   constexpr int kSteps = 300;
-  const auto away = [&](double f) { return (p - gcode::point_at(block.arc, f)).norm(); };
+  const auto away = [&](double f) { return (p - geometry::point_at(block.arc, f)).norm(); };
   int best = 0;
   for (int i = 1; i <= kSteps; ++i) {
     best = away(1.0 * i / kSteps) < away(1.0 * best / kSteps) ? i : best;

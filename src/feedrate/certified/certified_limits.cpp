@@ -6,7 +6,6 @@
 
 #include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/chord_limit.hpp"
-#include "feedrate/limits/segment_limits.hpp"
 #include "feedrate/limits/zone_row.hpp"
 
 namespace twin::feedrate {
@@ -205,9 +204,7 @@ RampLimits CertifiedLimits::least_ramp() const {
 
 void CertifiedLimits::append(const path::Segment& segment, double s0, double feedrate,
                              std::vector<LimitZone>& zones) {
-  if (lasting_.needs_turning()) {
-    append_segment_limits(segment, s0, feedrate, lasting_, zones);
-  } else if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     append_curve(*curve, s0, feedrate, zones);
   } else {
     append_arc(segment, s0, feedrate, zones);

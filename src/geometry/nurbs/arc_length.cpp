@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "core/root.hpp"
-#include "geometry/nurbs/cross.hpp"
-#include "geometry/nurbs/gauss_legendre.hpp"
+#include "geometry/gauss_legendre.hpp"
 
 namespace twin::geometry {
 namespace {
@@ -18,6 +17,7 @@ constexpr int kHalvings = 32;               // allowed per span, on average
 constexpr int kMoreHalvings = 2000;         // and beyond that
 constexpr double kRadius = 8.0;             // R of Eq. (1)
 
+using FivePoints = gauss::Rule<5>;
 using Quartic = std::array<double, 5>;
 
 double value(const Quartic& q, double x) noexcept {
@@ -42,7 +42,7 @@ struct Tangent {
   }
 };
 
-/// Whether one application of the quadrature to sqrt(q) is good enough, Eq. (1).
+/// Whether one application of the quadrature to sqrt(q) is good enough, Eqs. (1) and (2).
 bool is_smooth(const Quartic& q, double half) noexcept {
   double sum = 0.0;
   for (std::size_t k = 4; k >= 1; --k) {
@@ -80,13 +80,13 @@ struct ArcLength::Builder {
 
   /// Adds an interval whose speeds at the nodes are known; returns arc lengths at its quarters.
   std::array<double, 4> append(double begin, double half, const Quartic& q,
-                               const gauss::Values& speeds) {
+                               const gauss::Values<5>& speeds) {
     const double s = table.length_;
     table.intervals_.push_back({begin, half, s, q});
-    table.length_ += half * gauss::weighted_sum(gauss::kWeights, speeds);
+    table.length_ += half * gauss::weighted_sum(FivePoints::kWeights, speeds);
     std::array<double, 4> quarters = {s, s, s, s};
     for (std::size_t k = 0; samples != nullptr && k < 3; ++k) {
-      quarters[k + 1] += half * gauss::weighted_sum(gauss::kQuarterWeights[k], speeds);
+      quarters[k + 1] += half * gauss::weighted_sum(FivePoints::kQuarterWeights[k], speeds);
     }
     return quarters;
   }
@@ -99,9 +99,9 @@ struct ArcLength::Builder {
       add_cubic(cubic, begin + half, 0.5 * half, depth + 1);
       return;
     }
-    gauss::Values speeds;
+    gauss::Values<5> speeds;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
-      speeds[i] = root(value(q, gauss::kNodes[i]));
+      speeds[i] = root(value(q, FivePoints::kNodes[i]));
     }
     const std::array<double, 4> s = append(begin, half, q, speeds);
     if (samples != nullptr) {
@@ -109,21 +109,22 @@ struct ArcLength::Builder {
     }
   }
 
-  gauss::Values speeds_on(int span, double begin, double half) const {
-    gauss::Values speeds;
+  gauss::Values<5> speeds_on(int span, double begin, double half) const {
+    gauss::Values<5> speeds;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
-      speeds[i] = curve.derivatives(begin + half * (1.0 + gauss::kNodes[i]), span).first.norm();
+      speeds[i] =
+          curve.derivatives(begin + half * (1.0 + FivePoints::kNodes[i]), span).first.norm();
     }
     return speeds;
   }
 
-  void add_any(int span, double begin, double half, const gauss::Values& speeds, int depth) {
+  void add_any(int span, double begin, double half, const gauss::Values<5>& speeds, int depth) {
     const double quarter = 0.5 * half;
-    const gauss::Values left = speeds_on(span, begin, quarter);
-    const gauss::Values right = speeds_on(span, begin + half, quarter);
-    const double whole = half * gauss::weighted_sum(gauss::kWeights, speeds);
-    const double halves = quarter * (gauss::weighted_sum(gauss::kWeights, left) +
-                                     gauss::weighted_sum(gauss::kWeights, right));
+    const gauss::Values<5> left = speeds_on(span, begin, quarter);
+    const gauss::Values<5> right = speeds_on(span, begin + half, quarter);
+    const double whole = half * gauss::weighted_sum(FivePoints::kWeights, speeds);
+    const double halves = quarter * (gauss::weighted_sum(FivePoints::kWeights, left) +
+                                     gauss::weighted_sum(FivePoints::kWeights, right));
     if (std::abs(whole - halves) > tolerance && depth < kMaxDepth && halvings > 0) {
       --halvings;
       add_any(span, begin, quarter, left, depth + 1);
@@ -177,8 +178,9 @@ double ArcLength::speed(const Curve& curve, const Interval& interval, double x) 
 double ArcLength::partial(const Curve& curve, const Interval& interval, double x) const noexcept {
   const double scale = 0.5 * (1.0 + x);
   double sum = 0.0;
-  for (std::size_t i = 0; i < gauss::kPoints; ++i) {
-    sum += gauss::kWeights[i] * speed(curve, interval, scale * (1.0 + gauss::kNodes[i]) - 1.0);
+  for (std::size_t i = 0; i < 5; ++i) {
+    sum += FivePoints::kWeights[i] *
+           speed(curve, interval, scale * (1.0 + FivePoints::kNodes[i]) - 1.0);
   }
   return scale * interval.half * sum;
 }

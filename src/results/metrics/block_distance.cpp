@@ -1,8 +1,6 @@
 #include "results/metrics/block_distance.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +11,6 @@
 namespace twin::results {
 namespace {
 
-using gcode::ArcGeometry;
 using gcode::Block;
 using gcode::Motion;
 
@@ -21,33 +18,15 @@ constexpr double kStep = 0.26;           // sampling of an arc: just under 15 de
 constexpr int kZoom = 16;                // samples per round where Newton's method does not serve
 constexpr double kSameFraction = 1e-13;  // two fractions of an arc that are one
 
-/// C(f), C'(f), C''(f) of an arc.
-struct ArcPoint {
-  Vec3 position;  // [mm]
-  Vec3 first;     // [mm]
-  Vec3 second;    // [mm]
-};
-
-ArcPoint evaluate(const ArcGeometry& g, double f) noexcept {
-  const double a = f * g.sweep;
-  const Vec3 radial = std::cos(a) * g.e1 + std::sin(a) * g.e2;
-  const Vec3 along = std::cos(a) * g.e2 - std::sin(a) * g.e1;
-  const Vec3 axis = g.e1.cross(g.e2);
-  const double r = g.radius + f * g.radius_change;
-  return {g.centre + r * radial + f * g.rise * axis,
-          g.radius_change * radial + r * g.sweep * along + g.rise * axis,
-          2.0 * g.radius_change * g.sweep * along - r * g.sweep * g.sweep * radial};
-}
-
 /// Half the derivative of the squared distance at f, and the derivative of that.
-ValueAndSlope slope(const ArcGeometry& g, const Vec3& p, View view, double f) noexcept {
-  const ArcPoint at = evaluate(g, f);
+ValueAndSlope slope(const geometry::Arc& g, const Vec3& p, View view, double f) noexcept {
+  const geometry::Derivatives at = derivatives_at(g, f);
   const Vec3 d = seen(at.position - p, view);
   return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
 }
 
 /// Minimum of the squared distance within [lo, hi] that holds just one, by Newton's method.
-double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
+double refine(const geometry::Arc& g, const Vec3& p, View view, double lo, double hi) noexcept {
   if (slope(g, p, view, lo).value >= 0.0) {
     return lo;
   }
@@ -61,7 +40,7 @@ double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double 
 
 /// The same by ever finer sampling, for an arc seen edge-on: its twin minima may be as close as
 /// they like.
-double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
+double zoom_in(const geometry::Arc& g, const Vec3& p, View view, double lo, double hi) noexcept {
   double best = lo;
   while (hi - lo > 1e-10) {
     const double from = lo;
@@ -69,7 +48,7 @@ double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= kZoom; ++i) {
       const double f = from + step * i;
-      const double d2 = seen(evaluate(g, f).position - p, view).squaredNorm();
+      const double d2 = seen(point_at(g, f) - p, view).squaredNorm();
       if (d2 < least) {
         least = d2;
         best = f;
@@ -81,7 +60,7 @@ double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double
   return best;
 }
 
-bool is_ellipse(const ArcGeometry& g, View view) noexcept {
+bool is_ellipse(const geometry::Arc& g, View view) noexcept {
   return view == View::kAlongZ && std::hypot(g.e1.z(), g.e2.z()) > 1e-9;
 }
 
@@ -123,7 +102,7 @@ NearestPoint nearest_of_arc(const Block& block, const Vec3& p, View view, double
 Vec3 point_at(const Block& block, double fraction) noexcept {
   switch (block.motion) {
     case Motion::kArc:
-      return evaluate(block.arc, fraction).position;
+      return point_at(block.arc, fraction);
     case Motion::kNurbs: {
       const gcode::ProgrammedCurve& programmed = *block.nurbs;
       const double s = fraction * programmed.arc_length.length();
@@ -147,7 +126,7 @@ double block_length(const Block& block, View view) noexcept {
   if (block.motion != Motion::kArc) {
     return seen(block.end - block.start, view).norm();
   }
-  const ArcGeometry& g = block.arc;
+  const geometry::Arc& g = block.arc;
   const double around = (g.radius + 0.5 * g.radius_change) * g.sweep;
   return view == View::kAlongZ && !is_ellipse(g, view) ? around : std::hypot(around, g.rise);
 }

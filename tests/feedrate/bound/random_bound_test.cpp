@@ -15,6 +15,7 @@ TEST(RandomBound, NoPlanIsFasterThanItsBound) {
     for (const CurveKind curves : {CurveKind::kNurbs, CurveKind::kBezier, CurveKind::kNone}) {
       test::PlanSettings settings;
       settings.path.curves = curves;
+      settings.path.planner = curves == CurveKind::kNurbs ? Planner::kCertified : Planner::kPaper;
       const auto plan = test::plan(blocks, settings);
       EXPECT_LE(test::bound_of(plan, settings), plan.time * (1.0 + 1e-9)) << seed;
     }

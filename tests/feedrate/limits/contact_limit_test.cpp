@@ -79,6 +79,7 @@ double fastest(const PlannedSegment& planned) {
 
 test::PlanSettings with_tool(double radius, ToolSide side) {
   test::PlanSettings settings;
+  settings.path.planner = Planner::kPaper;
   settings.model.feedrate_rule = FeedrateRule::kContactSpeed;
   settings.model.tool_radius = radius;
   settings.model.tool_side = side;

@@ -70,6 +70,8 @@ TEST(FeedrateRules, RandomProgramsArePlannedWholeByEachRule) {
       settings.look_ahead = i % 2 == 0 ? 20 : 200;
       settings.period = i % 3 == 0 ? 4e-3 : 1e-3;
       settings.model.feedrate_rule = rule;
+      settings.path.planner =
+          rule == FeedrateRule::kChordError ? Planner::kCertified : Planner::kPaper;
       settings.model.tool_radius = 2.0;
       settings.model.tool_side = i % 4 == 0 ? ToolSide::kLeft : ToolSide::kRight;
       const auto planned = test::plan(blocks, settings);

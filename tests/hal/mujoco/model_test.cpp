@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/table_files.hpp"
@@ -25,7 +26,7 @@ Error error_of(const std::string& mjcf) {
   TableParams params;
   params.model = file;
   MujocoMachine machine(params);
-  const Expected<void> result = machine.configure(1e-3);
+  const Expected<void> result = checked(machine.configure(1e-3));
   std::filesystem::remove(file);
   EXPECT_FALSE(result);
   if (result) {
@@ -92,7 +93,7 @@ TEST(Model, TableOfTheRepositoryHasThreeJointsAndNoGeomsInPhysics) {
 }
 
 TEST(Model, ErrorsOfMujocoBecomeExceptions) {
-  install_mujoco_handlers();
+  ASSERT_TRUE(MujocoLibrary::load());
   EXPECT_THROW(mju_error("told to fail"), MujocoError);
 }
 

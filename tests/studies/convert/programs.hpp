@@ -84,7 +84,7 @@ inline std::vector<Vec3> points_of(const gcode::Block& block, double step) {
       const geometry::Curve& c = block.nurbs->curve;
       points.push_back(c.position(c.u_min() + f * (c.u_max() - c.u_min())));
     } else if (block.motion == gcode::Motion::kArc) {
-      const gcode::ArcGeometry& a = block.arc;
+      const geometry::Arc& a = block.arc;
       const Vec3 axis = a.e1.cross(a.e2);
       points.push_back(a.centre +
                        (a.radius + f * a.radius_change) *

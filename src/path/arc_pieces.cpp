@@ -1,6 +1,5 @@
-#include "path/arc_part.hpp"
+#include "path/arc_pieces.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +14,7 @@ constexpr double kSlack = 2.0;  // of C'''' for the change of radius and the ris
 
 /// Largest curvature that the arc can have [1/mm].
 double tightest(const Arc& arc) noexcept {
-  const gcode::ArcGeometry& g = arc.geometry;
+  const geometry::Arc& g = arc.geometry;
   return 1.0 / std::max(std::min(g.radius, g.radius + g.radius_change), 1e-9);
 }
 
@@ -73,22 +72,6 @@ double append(const Arc& arc, double from, double to, double s0, int spans,
 }
 
 }  // namespace
-
-Arc arc_part(const Arc& arc, double from, double to) noexcept {
-  const gcode::ArcGeometry& g = arc.geometry;
-  const double f0 = fraction_at(arc, from);
-  const double f1 = fraction_at(arc, to);
-  const double angle = f0 * g.sweep;
-  gcode::ArcGeometry part;
-  part.e1 = std::cos(angle) * g.e1 + std::sin(angle) * g.e2;
-  part.e2 = std::cos(angle) * g.e2 - std::sin(angle) * g.e1;
-  part.centre = g.centre + f0 * g.rise * g.e1.cross(g.e2);
-  part.radius = g.radius + f0 * g.radius_change;
-  part.radius_change = (f1 - f0) * g.radius_change;
-  part.sweep = (f1 - f0) * g.sweep;
-  part.rise = (f1 - f0) * g.rise;
-  return make_arc(part);
-}
 
 double append_arc_pieces(const Arc& arc, double from, double to, double s0,
                          std::vector<geometry::SpanCubic>& pieces) {

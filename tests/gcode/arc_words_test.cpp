@@ -1,4 +1,4 @@
-#include "gcode/arc.hpp"
+#include "gcode/arc_words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "program.hpp"
 
 namespace twin::gcode {
-namespace arc_test {
+namespace arc_words_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -26,7 +26,7 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
 
 /// A frame that is orthonormal, and ends that lie on the arc.
 void expect_sound(const Block& block) {
-  const ArcGeometry& arc = block.arc;
+  const geometry::Arc& arc = block.arc;
   const double scale = block.start.norm() + block.end.norm() + arc.radius + std::abs(arc.rise);
   EXPECT_NEAR(arc.e1.norm(), 1.0, 1e-14);
   EXPECT_NEAR(arc.e2.norm(), 1.0, 1e-14);
@@ -225,5 +225,5 @@ TEST(Arc, ByRadiusIsTheArcByOffset) {
   }
 }
 
-}  // namespace arc_test
+}  // namespace arc_words_test
 }  // namespace twin::gcode

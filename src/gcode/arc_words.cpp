@@ -1,13 +1,13 @@
-#include "gcode/arc.hpp"
+#include "gcode/arc_words.hpp"
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "gcode/fault.hpp"
+#include "gcode/block.hpp"
+#include "gcode/lexer.hpp"
 
 namespace twin::gcode {
 namespace {
@@ -48,11 +48,11 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 double length(const Vec2& vector) { return std::hypot(vector.x(), vector.y()); }
 
 /// The arc from the centre's place: u, d of (1) in the plane; radii already known to be sound.
-Arc make_arc(const ArcEnds& ends, const PlaneAxes& axes, const Vec2& u, const Vec2& d) {
+ProgrammedArc make_arc(const ArcEnds& ends, const PlaneAxes& axes, const Vec2& u, const Vec2& d) {
   const double sense = ends.is_clockwise ? -1.0 : 1.0;
   const Vec2 v = u + d;
-  Arc arc;
-  ArcGeometry& geometry = arc.geometry;
+  ProgrammedArc arc;
+  geometry::Arc& geometry = arc.geometry;
   geometry.radius = length(u);
   geometry.radius_change = length(v) - geometry.radius;
   geometry.centre = ends.start - in_space(u, axes);
@@ -76,7 +76,7 @@ Arc make_arc(const ArcEnds& ends, const PlaneAxes& axes, const Vec2& u, const Ve
 
 }  // namespace
 
-Expected<Arc> arc_by_offset(const ArcEnds& ends, const Vec3& offset) {
+Expected<ProgrammedArc> arc_by_offset(const ArcEnds& ends, const Vec3& offset) {
   const PlaneAxes axes = axes_of(ends.plane);
   const Vec2 u = -in_plane(offset, axes);
   const Vec2 d = in_plane(ends.end - ends.start, axes);
@@ -94,7 +94,7 @@ Expected<Arc> arc_by_offset(const ArcEnds& ends, const Vec3& offset) {
   return make_arc(ends, axes, u, d);
 }
 
-Expected<Arc> arc_by_radius(const ArcEnds& ends, double radius) {
+Expected<ProgrammedArc> arc_by_radius(const ArcEnds& ends, double radius) {
   const PlaneAxes axes = axes_of(ends.plane);
   const Vec2 d = in_plane(ends.end - ends.start, axes);
   const double chord = length(d);
@@ -114,13 +114,6 @@ Expected<Arc> arc_by_radius(const ArcEnds& ends, double radius) {
   const double side = ends.is_clockwise == (radius < 0.0) ? across : -across;
   const Vec2 u = -(d / 2.0 + side / chord * Vec2(-d.y(), d.x()));
   return make_arc(ends, axes, u, d);
-}
-
-Vec3 point_at(const ArcGeometry& arc, double fraction) noexcept {
-  const double angle = fraction * arc.sweep;
-  const double radius = arc.radius + fraction * arc.radius_change;
-  return arc.centre + radius * (std::cos(angle) * arc.e1 + std::sin(angle) * arc.e2) +
-         fraction * arc.rise * arc.e1.cross(arc.e2);
 }
 
 }  // namespace twin::gcode

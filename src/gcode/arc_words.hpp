@@ -1,8 +1,9 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "gcode/block.hpp"
+#include "core/vec.hpp"
 #include "gcode/modal_state.hpp"
+#include "geometry/arc.hpp"
 
 namespace twin::gcode {
 
@@ -10,10 +11,7 @@ namespace twin::gcode {
 /// more.
 inline constexpr double kRadiusSlack = 0.02;
 
-/// Lengths below this count as none: an arc from a point to itself is a full circle [mm].
-inline constexpr double kNoLength = 1e-9;
-
-/// What a line with G02 or G03 says besides the centre.
+/// What a line with G02 or G03 says apart from its centre or radius.
 struct ArcEnds {
   Vec3 start = Vec3::Zero();  ///< [mm]
   Vec3 end = Vec3::Zero();    ///< [mm]
@@ -22,8 +20,8 @@ struct ArcEnds {
 };
 
 /// An arc and the end it really has.
-struct Arc {
-  ArcGeometry geometry;
+struct ProgrammedArc {
+  geometry::Arc geometry;
   Vec3 end = Vec3::Zero();  ///< the programmed end; of a full circle, with its angle put onto the
                             ///< start's [mm]
 };
@@ -39,8 +37,8 @@ struct Arc {
 /// @param ends    start, end, plane and sense
 /// @param offset  from the start to the centre; its part along the third axis is not used [mm]
 /// @returns the arc, or an error with column 0 if the radius is zero or the ends do not lie on one
-/// circle
-Expected<Arc> arc_by_offset(const ArcEnds& ends, const Vec3& offset);
+///          circle
+Expected<ProgrammedArc> arc_by_offset(const ArcEnds& ends, const Vec3& offset);
 
 /// Arc of a given radius (R), less than half a turn for R > 0, more for R < 0.
 ///
@@ -52,15 +50,7 @@ Expected<Arc> arc_by_offset(const ArcEnds& ends, const Vec3& offset);
 /// @param ends    start, end, plane and sense
 /// @param radius  radius with sign [mm]
 /// @returns the arc, or an error with column 0 if the radius is zero or cannot span the chord, or
-/// if start
-///          and end are the same point
-Expected<Arc> arc_by_radius(const ArcEnds& ends, double radius);
-
-/// Point of an arc.
-///
-/// @param fraction  place on the arc, 0 at its start, 1 at its end [-]
-/// @returns the point [mm]
-/// @note Real-time safe.
-Vec3 point_at(const ArcGeometry& arc, double fraction) noexcept;
+///          if start and end are the same point
+Expected<ProgrammedArc> arc_by_radius(const ArcEnds& ends, double radius);
 
 }  // namespace twin::gcode
