@@ -1,6 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "core/limits.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/ramps.hpp"
+#include "path/segment.hpp"
 
 namespace twin::feedrate {
 
@@ -26,10 +32,10 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
 /// Feedrate at which a corner between two set points does not look like jerk.
 ///
 /// The chord across the corner is shorter than the way by up to v T turn^2 / 8, depending on where
-/// in the period the corner falls. A corner by itself can be told from a change of feedrate; one of
-/// several in a few periods, or one beside a bend, cannot: there the set points' own third
-/// difference, up to four times that over T^3, must stay small:
-///   v turn^2 / (2 T^2) <= kRipple J.
+/// in the period the corner falls. A single corner can be told from a change of feedrate; one of
+/// several in a few periods, or one beside a bend, cannot. For those the third difference of the
+/// set points that the corner itself makes, up to four times that over T^3, has to stay small:
+///   v turn^2 / (2 T^2) <= kRipple J,   with kRipple = 0.1.
 ///
 /// @param jerk  J_max [mm/s^3]
 /// @returns [mm/s]; infinity for no turn
@@ -45,11 +51,46 @@ inline constexpr double kHidingPeriods = 3.5;
 /// Share of a corner's turn that hides it.
 inline constexpr double kHidingShare = 0.125;
 
-/// How far before a corner lie those whose limits it may lower, at most [mm].
+/// A corner may lower the limits of those before it up to this distance [mm].
 /// @param feedrate  the largest one that the machine accepts [mm/s]
 /// @param period    interpolation period [s]
 constexpr double corner_reach(double feedrate, double period) noexcept {
   return kHidingPeriods * feedrate * period;
 }
+
+/// Feedrate limits of the places where segments meet: stops, single corners, and corners so close
+/// together that one period, or a few of them, hold several.
+class JunctionLimits {
+ public:
+  /// @param period  interpolation period [s]
+  JunctionLimits(const Limits& limits, const PlanningModel& model, double period);
+
+  /// Appends the limit of the place between two segments, if it has one, and lowers those of the
+  /// corners just before it.
+  ///
+  /// @param s      the place [mm]
+  /// @param zones  all zones before it, measured from the same start
+  void append(const path::Segment& before, const path::Segment& after, double s,
+              std::vector<LimitZone>& zones);
+
+  /// Says that the first zones are gone and that places are measured from a new start.
+  /// @param distance  of the new start from the old [mm]
+  void forget(double distance, std::size_t zones);
+
+ private:
+  struct Turn {
+    double s;          // place of the corner [mm]
+    double angle;      // [rad]
+    std::size_t zone;  // its limit
+  };
+
+  void limit_cluster(double turn, double s, std::vector<LimitZone>& zones);
+
+  Limits limits_;
+  PlanningModel model_;
+  RampLimits ramp_;
+  double period_;
+  std::vector<Turn> turns_;  // corners that later ones may still limit
+};
 
 }  // namespace twin::feedrate
