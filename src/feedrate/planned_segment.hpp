@@ -17,7 +17,7 @@ struct PlannedSegment {
   std::int64_t plan = 0;          ///< number of the plan that it comes from, counted from 0
   std::vector<Phase> phases;      ///< cover [0, segment.length]; s from the segment's start
   std::vector<LimitZone> limits;  ///< feedrate limits, s from the segment's start
-  RampLimits brake;               ///< acceleration and jerk with which it may brake from here to rest
+  RampLimits brake;               ///< with which it may brake from here to rest
 };
 
 }  // namespace twin::feedrate

@@ -34,13 +34,14 @@ inline constexpr double kFeedrateRounding = 1e-9;
 /// Two results of the same closed formula are equal within this share [-]: a feedrate that a phase
 /// ends at and the limit that its end was computed from, or an acceleration and A.
 ///
-/// It is some thousand times the rounding of a double, for a root of a difference loses a few digits.
+/// It is some thousand times the rounding of a double, for a root of a difference loses a few
+/// digits.
 inline constexpr double kFormulaRounding = 1e-12;
 
 /// A turn of the path smaller than this is none [rad].
 ///
-/// Passed at 200 mm/s it changes the velocity by 2e-5 mm/s. The rounding of tangents is far below it,
-/// and a corner ten times sharper still limits nothing.
+/// Passed at 200 mm/s it changes the velocity by 2e-5 mm/s. The rounding of tangents is far below
+/// it, and a corner ten times sharper still limits nothing.
 inline constexpr double kNoTurn = 1e-7;
 
 }  // namespace twin::feedrate

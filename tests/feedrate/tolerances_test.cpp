@@ -13,8 +13,8 @@
 namespace twin::feedrate {
 namespace tolerances_test {
 
-/// A path of lines and arcs, and the limits to match, drawn larger by a factor. To a tolerance in mm
-/// that is the same as a smaller tolerance on the path as it was.
+/// A path of lines and arcs, and the limits to match, drawn larger by a factor. To a tolerance in
+/// mm that is the same as a smaller tolerance on the path as it was.
 struct Drawn {
   std::vector<gcode::Block> blocks;
   testing::PlanSettings settings;

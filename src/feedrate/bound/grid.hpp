@@ -19,8 +19,8 @@ struct Fineness {
 
 /// Appends the cells of one segment.
 ///
-/// A line is one cell, and so is an arc unless an axis has a limit of its own. A curve is divided at
-/// its curvature samples, and further by halves where the limit changes within a cell.
+/// A line is one cell, and so is an arc unless an axis has a limit of its own. A curve is divided
+/// at its curvature samples, and further by halves where the limit changes within a cell.
 ///
 /// The cap of a cell is the largest limit on it. It comes from the least curvature, with d2C/ds2
 /// taken as linear over the cell. So the staircase of caps is nowhere below the limit, and a coarse

@@ -18,8 +18,9 @@ double largest_begin(const Cell& cell, double end) noexcept;
 /// step. `begin` is no more than largest_begin(cell, end).
 double largest_end(const Cell& cell, double begin, double end) noexcept;
 
-/// Whether q is linear over a cell. It is where the cell has strips, unless the motion rests at both
-/// ends. Where it is not, q rises at the acceleration limit, at most up to the cap, and falls again.
+/// Whether q is linear over a cell. It is where the cell has strips, unless the motion rests at
+/// both ends. Where it is not, q rises at the acceleration limit, at most up to the cap, and falls
+/// again.
 bool is_linear(const Cell& cell, double begin, double end) noexcept;
 
 /// Shortest time on a cell between two q [s]; where q is linear, t = 2 l / (v_0 + v_1).

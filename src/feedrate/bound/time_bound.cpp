@@ -9,9 +9,9 @@
 namespace twin::feedrate {
 namespace {
 
-/// Change of time below which a grid is fine enough [-], and the most halvings of it. A larger change
-/// saves halvings, each of which is twice the work of the one before, and gives a bound that is less
-/// sharp by as much.
+/// Change of time below which a grid is fine enough [-], and the most halvings of it. A larger
+/// change saves halvings, each of which is twice the work of the one before, and gives a bound that
+/// is less sharp by as much.
 constexpr double kSameTime = 3e-4;
 constexpr int kMostHalvings = 6;
 

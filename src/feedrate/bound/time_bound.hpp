@@ -35,11 +35,11 @@ namespace twin::feedrate {
 ///
 /// Segments are kept until nothing that follows can change the result up to there: a pass backward
 /// from rest and one from the cap agree. The grid of each such stretch is halved until its time
-/// changes by less than 0.03 %. Without limits of axes every grid gives a lower bound, and the bounds
-/// of finer grids rise to the optimum. With them u has to be constant over a cell, which is slower
-/// than need be: there the times of finer grids fall, by half as much with each halving, and the last
-/// fall is taken off once more. Where the two passes do not agree within kMostSegments, the faster
-/// one is taken, which keeps the bound below the optimum.
+/// changes by less than 0.03 %. Without limits of axes every grid gives a lower bound, and the
+/// bounds of finer grids rise to the optimum. With them u has to be constant over a cell, which is
+/// slower than need be: there the times of finer grids fall, by half as much with each halving, and
+/// the last fall is taken off once more. Where the two passes do not agree within kMostSegments,
+/// the faster one is taken, which keeps the bound below the optimum.
 class TimeBound {
  public:
   static constexpr std::size_t kWindow = 256;         ///< segments looked at together

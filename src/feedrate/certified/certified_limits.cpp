@@ -14,20 +14,21 @@ namespace {
 constexpr double kBetweenSamples = 1.003;
 
 /// Bound of the third derivative, over what three samples of it give. It covers what a parabola
-/// through them does not see, and costs 1.6 % of the feedrate where the jerk of an axis binds; twice
-/// the margin would cost 1.6 % more.
+/// through them does not see, and costs 1.6 % of the feedrate where the jerk of an axis binds;
+/// twice the margin would cost 1.6 % more.
 constexpr double kTwistMargin = 1.05;
 
-/// A bend ends where the curvature has fallen to this share of its peak. A larger share cuts one bend
-/// in two, each of which may then seem brief; a smaller one joins neighbours that are two corners.
+/// A bend ends where the curvature has fallen to this share of its peak. A larger share cuts one
+/// bend in two, each of which may then seem brief; a smaller one joins neighbours that are two
+/// corners.
 constexpr double kValley = 0.5;
 
-/// Beside a bend the curvature is below this share of its peak. What lies beside a brief bend is not
-/// held at the bend's feedrate; a larger share would leave more of its flanks to the ramps.
+/// Beside a bend the curvature is below this share of its peak. What lies beside a brief bend is
+/// not held at the bend's feedrate; a larger share would leave more of its flanks to the ramps.
 constexpr double kBesideBend = 0.01;
 
-/// Parts of an arc, where axes have limits of their own: the share of each axis in the motion changes
-/// along it. With twice as many, half as much is lost by taking the worst of each part.
+/// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
+/// changes along it. With twice as many, half as much is lost by taking the worst of each part.
 constexpr int kArcParts = 48;
 
 /// Share of an axis's acceleration and jerk that counts as left to the motion along the path where

@@ -14,8 +14,8 @@ const Ascent kNoAscent;
 /// that planning ends; twice as many would only make a plan that fails take twice as long.
 constexpr std::size_t kStepsPerZone = 8;
 
-/// Anchors at one place have one feedrate [-]: their difference is rounding of the plan, and what it
-/// would take to pass from one to the other is far below what a period shows.
+/// Anchors at one place have one feedrate [-]: their difference is rounding of the plan, and what
+/// it would take to pass from one to the other is far below what a period shows.
 constexpr double kSamePlaceFeedrate = 1e-6;
 
 /// Whether a phase that rises passes a place faster than a limit.

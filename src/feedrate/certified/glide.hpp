@@ -31,8 +31,8 @@ namespace twin::feedrate {
 ///      way. If not, the zone lies on the way up of one side or on the way down of the other. That
 ///      ascent is then clamped to the zone's limit up to the zone's far end, which it passes with
 ///      acceleration. If the zone lies on neither, its limit caps the whole leg.
-/// Zones with low limits come first and each step lowers the feedrate everywhere, so a zone that was
-/// kept stays kept. An anchor is no faster than the limits of zones that come later, so it can
+/// Zones with low limits come first and each step lowers the feedrate everywhere, so a zone that
+/// was kept stays kept. An anchor is no faster than the limits of zones that come later, so it can
 /// always be reached. From rest there is always a plan.
 class Glide {
  public:

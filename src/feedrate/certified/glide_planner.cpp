@@ -15,12 +15,12 @@ namespace {
 constexpr double kBrakingDistances = 4.0;
 
 /// Segments in the window at which it is planned to rest, though more follow. It bounds memory and
-/// the time of one plan. Twice as many double both, and a path of segments half as long goes through
-/// without a stop.
+/// the time of one plan. Twice as many double both, and a path of segments half as long goes
+/// through without a stop.
 constexpr std::size_t kMostSegments = 16384;
 
-/// Fewest zones between two plans where their number makes a plan due. It keeps a path of many zones
-/// from waiting for its braking distances; twice as many double that wait and the window.
+/// Fewest zones between two plans where their number makes a plan due. It keeps a path of many
+/// zones from waiting for its braking distances; twice as many double that wait and the window.
 constexpr std::size_t kFewestZones = 1024;
 
 bool is_level(const Phase& phase) { return phase.a == 0.0; }

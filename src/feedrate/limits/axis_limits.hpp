@@ -24,8 +24,8 @@ bool has_axis_limits(const Limits& limits) noexcept;
 ///   jerk          t j + 3 k v a + k' v^3
 /// where t, k, k' are its parts of the path's derivatives. The limits of the axis are shared out in
 /// this order: the feedrate may use up 3/4 of its acceleration and 1/2 of its jerk, a gets the rest
-/// of the acceleration and half the rest of the jerk, and j gets the jerk that is left. On a straight
-/// line j gets all of it.
+/// of the acceleration and half the rest of the jerk, and j gets the jerk that is left. On a
+/// straight line j gets all of it.
 void keep_axis_limits(const PathBounds& path, const Limits& limits, LimitZone& zone) noexcept;
 
 }  // namespace twin::feedrate

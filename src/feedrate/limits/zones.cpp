@@ -5,12 +5,12 @@
 namespace twin::feedrate {
 namespace {
 
-/// Ratio of limits that share a zone. It trades time for work: up to 1 % of the feedrate is lost in a
-/// zone, and with twice the difference about half as many zones are planned.
+/// Ratio of limits that share a zone. It trades time for work: up to 1 % of the feedrate is lost in
+/// a zone, and with twice the difference about half as many zones are planned.
 constexpr double kSameLimit = 1.01;
 
-/// Places of an arc outside the XY plane at which the rule is asked, where it depends on the heading:
-/// every 2 degrees of a circle. Twice as many follow the heading twice as closely.
+/// Places of an arc outside the XY plane at which the rule is asked, where it depends on the
+/// heading: every 2 degrees of a circle. Twice as many follow the heading twice as closely.
 constexpr std::size_t kArcSamples = 181;
 
 /// Zones between successive samples.

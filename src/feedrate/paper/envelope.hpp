@@ -81,7 +81,8 @@ class Envelope {
   Outcome plan_legs(const Anchor& start, const Anchor& end);
   Outcome plan_leg(const Leg& leg);
   std::optional<Violation> find_violation(const Leg& leg, const Hump& hump) const;
-  /// Whether the leg was split at the zone; if an anchor there could not be reached nothing is done.
+  /// Whether the leg was split at the zone; if an anchor there could not be reached nothing is
+  /// done.
   bool split(const Leg& leg, const Violation& violation);
   /// Lowers the limit of the faster anchor of a leg that passes a zone too fast.
   Outcome lower_anchor(const Leg& leg, const LimitZone& zone);

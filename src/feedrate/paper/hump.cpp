@@ -47,8 +47,8 @@ double peak_without_hold(double va, double vb, double d, double cap,
   return low;
 }
 
-/// Appends one ramp that covers `distance` from s: the shape of ramp_shape, stretched by rounding so
-/// that it fits.
+/// Appends one ramp that covers `distance` from s: the shape of ramp_shape, stretched by rounding
+/// so that it fits.
 void append_ramp(double s, double v1, double v2, double distance, const RampLimits& limits,
                  std::vector<Phase>& phases) {
   if (!(distance > 0.0) || v1 == v2) {

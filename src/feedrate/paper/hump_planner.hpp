@@ -7,8 +7,8 @@
 
 namespace twin::feedrate {
 
-/// Plans a window as an Envelope of humps. Final is the plan up to the last anchor at its own limit,
-/// or hold under a cap, that the end of the window does not slow down.
+/// Plans a window as an Envelope of humps. Final is the plan up to the last anchor at its own
+/// limit, or hold under a cap, that the end of the window does not slow down.
 ///
 /// From there any feedrate can be reached without acceleration before the horizon, so the next plan
 /// can put its anchors where it needs them. Should it fail all the same, humps of the last plan are
