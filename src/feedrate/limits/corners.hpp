@@ -42,13 +42,17 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
 double corner_ripple_feedrate(double turn, double jerk, double period) noexcept;
 
 /// A corner that turns by more than this stands out of any bend, even where the two set points
-/// beside it share its turn [rad].
+/// beside it share its turn [rad]. A larger angle slows sharp corners beside bends for nothing; a
+/// smaller one lets corners pass that the set points show as jerk.
 inline constexpr double kSharpTurn = 1.4;
 
-/// Periods around a corner in which another turn hides it.
+/// Periods around a corner in which another turn hides it: the three that a third difference of set
+/// points spans, and half of one for where in its period the corner falls. Twice as many would slow
+/// corners that no difference mixes up, and keep more of the path open.
 inline constexpr double kHidingPeriods = 3.5;
 
-/// Share of a corner's turn that hides it.
+/// Another turn hides a corner if it is at least this share of the corner's own. Twice as much lets
+/// more corners pass as jerk, half as much slows more of them.
 inline constexpr double kHidingShare = 0.125;
 
 /// A corner may lower the limits of those before it up to this distance [mm].
