@@ -18,10 +18,10 @@ Expected<config::MachineFile> read_machine(const MachineSource& source) {
 Expected<std::unique_ptr<hal::Machine>> make_simulated_machine(std::string_view name,
                                                                const config::MachineFile& machine) {
   if (name == "ideal") {
-    return std::make_unique<hal::IdealMachine>();
+    return std::make_unique<hal::ideal::IdealMachine>();
   }
   if (name == "mujoco") {
-    return std::make_unique<hal::MujocoMachine>(machine.table);
+    return std::make_unique<hal::mujoco::MujocoMachine>(machine.table);
   }
   return fail(ErrorCode::kUsage,
               fmt::format("there is no simulated machine {}: they are mujoco and ideal", name));
