@@ -67,8 +67,8 @@ TEST_P(VelocityStep, FollowsItsClosedFormWithinOnePercentOfTheFinalValue) {
   }
   const double period = 1e-4;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(period));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(period)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs;
   outputs.servo_on = {true, true};
   outputs.volts = {0.1, -0.1};

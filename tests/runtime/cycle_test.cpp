@@ -35,8 +35,8 @@ class CycleTest : public ::testing::Test {
 
 TEST_F(CycleTest, AllocatesNothing) {
   hal::ideal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   const std::int64_t before = hal::testing::allocations();
   bool is_fine = cycle.hold() == hal::Status::kOk;
@@ -55,8 +55,8 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
   hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
   hal::mujoco::MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   MonotonicClock clock;
   Pacer pacer(clock, 1e-5, {});
@@ -80,8 +80,8 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
 
 TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
   hal::ideal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   std::int64_t periods = 0;
   while (cycle.prepare() == motion::Status::kMoving) {

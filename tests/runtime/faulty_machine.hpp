@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -25,8 +26,8 @@ class FaultyMachine final : public hal::Machine {
   bool is_off = false;
 
   const hal::MachineInfo& info() const noexcept override { return info_; }
-  Expected<void> configure(double period) override { return table_.configure(period); }
-  Expected<void> activate() override { return table_.activate(); }
+  std::optional<Error> configure(double period) override { return table_.configure(period); }
+  std::optional<Error> activate() override { return table_.activate(); }
   hal::Status read(hal::Inputs& inputs) noexcept override {
     const auto status = table_.read(inputs);
     ++reads;

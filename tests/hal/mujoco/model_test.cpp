@@ -31,7 +31,7 @@ Error error_of(const std::string& mjcf) {
   TableParams params;
   params.model = file;
   MujocoMachine machine(params);
-  const Expected<void> result = machine.configure(1e-3);
+  const Expected<void> result = checked(machine.configure(1e-3));
   std::filesystem::remove(file);
   EXPECT_FALSE(result);
   if (result) {

@@ -87,8 +87,8 @@ class FakeRig : public ::testing::Test {
   /// Active, with volts at the drives and the servos on.
   std::unique_ptr<RigMachine> running(bool with_bench = true) {
     auto machine = make(with_bench);
-    EXPECT_TRUE(machine->configure(kPeriod));
-    const auto active = machine->activate();
+    EXPECT_TRUE(checked(machine->configure(kPeriod)));
+    const auto active = checked(machine->activate());
     EXPECT_TRUE(active) << active.error().message;
     Outputs outputs;
     outputs.volts = {1.0, -2.0};

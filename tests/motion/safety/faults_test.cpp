@@ -24,8 +24,8 @@ class Faults : public ::testing::Test {
   Faults() : file(*config::read_machine_file(TWIN_SOURCE_DIR "/mjcf/xy_table.toml")) {}
 
   MotionResult run(const std::string& program = "G01 X40 F3000\nX0\n") {
-    EXPECT_TRUE(machine.configure(kPeriod));
-    EXPECT_TRUE(machine.activate());
+    EXPECT_TRUE(checked(machine.configure(kPeriod)));
+    EXPECT_TRUE(checked(machine.activate()));
     auto planned = test::plan_text(program, file);
     SegmentQueue segments(planned.size());
     for (feedrate::PlannedSegment& segment : planned) {

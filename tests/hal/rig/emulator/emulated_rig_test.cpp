@@ -32,8 +32,8 @@ std::vector<double> wild_volts(unsigned seed, int periods) {
 int differing_periods(const RigSettings& wiring, double sign_x, double sign_y) {
   constexpr int kPeriods = 5000;
   mujoco::MujocoMachine machine(hal::testing::default_table());
-  EXPECT_TRUE(machine.configure(kPeriod));
-  EXPECT_TRUE(machine.activate());
+  EXPECT_TRUE(checked(machine.configure(kPeriod)));
+  EXPECT_TRUE(checked(machine.activate()));
   EmulatorBench bench(wiring);
   const std::vector<double> x = wild_volts(3, kPeriods);
   const std::vector<double> y = wild_volts(8, kPeriods);
