@@ -57,6 +57,7 @@ class Run {
   void move();
   void guarded_move() noexcept;
   void take(const results::Sample& sample);
+  void flush();
   void record();
   void run_threads(gcode::Reader& reader);
   std::optional<Error> failure() const;
@@ -149,6 +150,17 @@ void Run::take(const results::Sample& sample) {
   }
 }
 
+/// Hands the rows of this turn to the sinks.
+void Run::flush() {
+  if (record_error_) {
+    return;
+  }
+  if (auto taken = recorder_.flush(); !taken) {
+    record_error_ = taken.error();
+    stop_ = true;
+  }
+}
+
 /// Drains the samples until the motion has ended. Nothing escapes: what throws brakes the machine.
 void Run::record() {
   results::Sample sample;
@@ -160,6 +172,7 @@ void Run::record() {
         is_empty = false;
         take(sample);
       }
+      flush();
       if (request_.stop != nullptr && request_.stop->load()) {
         stop_ = true;
       }
@@ -260,6 +273,15 @@ Expected<RunResult> Run::execute() {
   return result;
 }
 
+/// Makes the folder of the results, and that of the plots in it.
+Expected<void> make_folders(const std::filesystem::path& directory) {
+  std::error_code code;
+  if (!directory.empty()) {
+    std::filesystem::create_directories(directory / "plots", code);
+  }
+  return code ? file_error(directory, "make this folder", code.value()) : Expected<void>{};
+}
+
 }  // namespace
 
 Expected<RunResult> run_program(const RunRequest& request) {
@@ -279,11 +301,7 @@ Expected<RunResult> run_program(const RunRequest& request) {
       request.estimated(plan->time);
     }
   }
-  std::error_code code;
-  std::filesystem::create_directories(request.directory / "plots", code);
-  if (code) {
-    return file_error(request.directory, "make this folder", code.value());
-  }
+  TWIN_CHECK(make_folders(request.directory));
   hal::ActiveMachine machine(request.hal);
   if (auto started = machine.start(request.machine.period); !started) {
     return tl::unexpected(started.error());

@@ -1,4 +1,4 @@
-#include "results/trace/csv_writer.hpp"
+#include "results/trace/csv_trace.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,20 +7,32 @@
 #include <limits>
 #include <random>
 
+#include "results/trace/columns.hpp"
 #include "results/trace/csv_reader.hpp"
 #include "synthetic_trace.hpp"
 #include "tests/support/files.hpp"
 
 namespace twin::results {
-namespace csv_writer_test {
+namespace csv_trace_test {
 
 using test::content;
 using test::TemporaryDirectory;
 
-TEST(CsvWriter, HeaderAndRowAreExactlyTheInterface) {
+std::optional<Error> begin(CsvTrace& trace, Layout layout) {
+  return trace.begin(trace_header(layout, 0.001));
+}
+
+std::optional<Error> write(CsvTrace& trace, Layout layout, const Sample& sample,
+                           double contour_error = 0.0) {
+  std::vector<double> row;
+  append_row(sample, contour_error, layout, row);
+  return trace.rows(row);
+}
+
+TEST(CsvTrace, HeaderAndRowAreExactlyTheInterface) {
   const TemporaryDirectory directory;
-  auto writer = CsvWriter::create(directory.path(), Layout::kRun);
-  ASSERT_TRUE(writer);
+  CsvTrace trace(directory.path());
+  ASSERT_FALSE(begin(trace, Layout::kRun));
   Sample sample;
   sample.t = 3 * 0.001;
   sample.segment = 2;
@@ -30,8 +42,8 @@ TEST(CsvWriter, HeaderAndRowAreExactlyTheInterface) {
   sample.encoder = {1.25, -2.5};
   sample.table = {1.125, -2.125};
   sample.volts = {0.5, -0.5};
-  ASSERT_TRUE(writer->write(sample, 0.25));
-  ASSERT_TRUE(writer->commit());
+  ASSERT_FALSE(write(trace, Layout::kRun, sample, 0.25));
+  ASSERT_FALSE(trace.commit());
   EXPECT_EQ(content(directory.path() / "trace.csv"),
             "t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s,x_enc_mm,y_enc_mm,"
             "x_table_mm,y_table_mm,x_drive_V,y_drive_V,contour_error_um,x_tracking_error_um,"
@@ -39,34 +51,48 @@ TEST(CsvWriter, HeaderAndRowAreExactlyTheInterface) {
             "0.003,2,17,1.5,-2.25,0,50,1.25,-2.5,1.125,-2.125,0.5,-0.5,250,250,250\n");
 }
 
-TEST(CsvWriter, APlanHasTheFirstSevenColumns) {
+TEST(CsvTrace, APlanHasTheFirstSevenColumns) {
   const TemporaryDirectory directory;
-  auto writer = CsvWriter::create(directory.path(), Layout::kPlan);
-  ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(Sample{}));
-  ASSERT_TRUE(writer->commit());
+  CsvTrace trace(directory.path());
+  ASSERT_FALSE(begin(trace, Layout::kPlan));
+  ASSERT_FALSE(write(trace, Layout::kPlan, Sample{}));
+  ASSERT_FALSE(trace.commit());
   EXPECT_EQ(content(directory.path() / "trace.csv"),
             "t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s\n0,0,0,0,0,0,0\n");
 }
 
-TEST(CsvWriter, WithoutCommitTheRowsAreThePartialTrace) {
+TEST(CsvTrace, CountsAreWrittenAsWholeNumbers) {
+  const TemporaryDirectory directory;
+  CsvTrace trace(directory.path());
+  ASSERT_FALSE(begin(trace, Layout::kPlan));
+  Sample sample;
+  sample.segment = 100000;
+  sample.line = 3000000000;
+  sample.feedrate = 100000.0;
+  ASSERT_FALSE(write(trace, Layout::kPlan, sample));
+  ASSERT_FALSE(trace.commit());
+  EXPECT_THAT(content(directory.path() / "trace.csv"),
+              testing::EndsWith("\n0,100000,3000000000,0,0,0,1e+05\n"));
+}
+
+TEST(CsvTrace, WithoutCommitTheRowsAreThePartialTrace) {
   const TemporaryDirectory directory;
   {
-    auto writer = CsvWriter::create(directory.path(), Layout::kPlan);
-    ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->write(Sample{}));
+    CsvTrace trace(directory.path());
+    ASSERT_FALSE(begin(trace, Layout::kPlan));
+    ASSERT_FALSE(write(trace, Layout::kPlan, Sample{}));
   }
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "trace.csv"));
   EXPECT_THAT(content(directory.path() / "trace.partial.csv"),
               testing::EndsWith("\n0,0,0,0,0,0,0\n"));
 }
 
-TEST(CsvWriter, ACommitReplacesThePartialTraceOfAnEarlierRun) {
+TEST(CsvTrace, ACommitReplacesThePartialTraceOfAnEarlierRun) {
   const TemporaryDirectory directory;
   test::put(directory.path() / "trace.partial.csv", std::string(100000, '7'));
-  auto writer = CsvWriter::create(directory.path(), Layout::kPlan);
-  ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->commit());
+  CsvTrace trace(directory.path());
+  ASSERT_FALSE(begin(trace, Layout::kPlan));
+  ASSERT_FALSE(trace.commit());
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "trace.partial.csv"));
   EXPECT_THAT(content(directory.path() / "trace.csv"), testing::EndsWith("feedrate_mm_per_s\n"));
 }
@@ -81,7 +107,7 @@ double any_finite(std::mt19937_64& random) {
   }
 }
 
-TEST(CsvWriter, EveryDoubleReadsBackBitForBit) {
+TEST(CsvTrace, EveryDoubleReadsBackBitForBit) {
   const TemporaryDirectory directory;
   constexpr std::array<std::string_view, 3> kNames{"a", "b", "c"};
   auto file = CsvFile::create(directory.path() / "a.csv", directory.path() / "a.tmp", kNames);
@@ -111,12 +137,13 @@ TEST(CsvWriter, EveryDoubleReadsBackBitForBit) {
   EXPECT_FALSE(*reader->next(got));
 }
 
-TEST(CsvWriter, UnwritableDirectoryIsAnErrorWithItsName) {
-  const auto writer = CsvWriter::create("/nonexistent", Layout::kRun);
-  ASSERT_FALSE(writer);
-  EXPECT_EQ(writer.error().file, "/nonexistent/trace.partial.csv");
-  EXPECT_EQ(writer.error().code, ErrorCode::kFile);
+TEST(CsvTrace, UnwritableDirectoryIsAnErrorWithItsName) {
+  CsvTrace trace("/nonexistent");
+  const auto error = begin(trace, Layout::kRun);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->file, "/nonexistent/trace.partial.csv");
+  EXPECT_EQ(error->code, ErrorCode::kFile);
 }
 
-}  // namespace csv_writer_test
+}  // namespace csv_trace_test
 }  // namespace twin::results
