@@ -60,9 +60,7 @@ Settings::Settings(const std::string& name)
           Data{value_of(config::read_machine_file(value_of(config::find_machine(name)), {}))})) {}
 
 Settings::Settings(const Settings& other) : data_(std::make_unique<Data>(*other.data_)) {}
-Settings& Settings::operator=(const Settings& other) {
-  return *this = Settings(other);
-}
+Settings& Settings::operator=(const Settings& other) { return *this = Settings(other); }
 Settings::Settings(Settings&&) noexcept = default;
 Settings& Settings::operator=(Settings&&) noexcept = default;
 Settings::~Settings() = default;

@@ -34,12 +34,12 @@ const auto& found(const Map& map, std::string_view key, const std::vector<std::s
                   std::string_view kind) {
   const auto it = map.find(key);
   if (it == map.end()) {
-    throw Failure({ErrorCode::kUsage,
-                   fmt::format("the summary has no {} {}{}", kind, key,
-                               config::did_you_mean(key, keys)),
-                   {},
-                   0,
-                   0});
+    throw Failure(
+        {ErrorCode::kUsage,
+         fmt::format("the summary has no {} {}{}", kind, key, config::did_you_mean(key, keys)),
+         {},
+         0,
+         0});
   }
   return it->second;
 }
