@@ -104,7 +104,7 @@ TEST(Settings, AWrongOneIsRefusedAndNothingChanges) {
 TEST(Plan, ItsTimeIsThatOfTheSummary) {
   const Program program = Program::from_text(kTriangle);
   const Plan planned = plan(program, Settings());
-  const Run ideal = run(program, Settings(), *make_ideal());
+  const twin::Run ideal = run(program, Settings(), *make_ideal());
   EXPECT_NEAR(planned.time(), ideal.summary.number("planned_time_s"), 1e-8);
   EXPECT_NEAR(planned.path_length(), ideal.summary.number("path_length_mm"), 1e-6);
   EXPECT_EQ(planned.blocks(), 3);

@@ -41,8 +41,8 @@ TEST(Run, TheTraceIsByteForByteThatOfTheCommand) {
   MemoryTrace memory;
   CsvTrace csv((folder / "sink").string());
   const Settings settings;
-  const Run result = run(Program::from_file("circle.nc"), settings, *make_table(settings),
-                         {.sinks = {&memory, &csv}, .folder = (folder / "files").string()});
+  const twin::Run result = run(Program::from_file("circle.nc"), settings, *make_table(settings),
+                               {.sinks = {&memory, &csv}, .folder = (folder / "files").string()});
   ASSERT_FALSE(result.failure) << to_string(*result.failure);
   const std::string expected = test::content(folder / "command" / "trace.csv");
   EXPECT_GT(expected.size(), 100000U);
@@ -66,7 +66,7 @@ TEST(Run, ManyAtOnceAreEachAsIfAlone) {
     Settings settings;
     settings.set("servo.x.kp_per_s", gain);
     MemoryTrace trace;
-    const Run result = run(program, settings, *make_table(settings), {.sinks = {&trace}});
+    const twin::Run result = run(program, settings, *make_table(settings), {.sinks = {&trace}});
     EXPECT_FALSE(result.failure);
     const auto column = trace["x_table_mm"];
     return std::vector<double>(column.begin(), column.end());
@@ -86,7 +86,8 @@ TEST(Run, ManyAtOnceAreEachAsIfAlone) {
 }
 
 TEST(Run, TheSummaryHasItsFiguresByName) {
-  const Run result = run(Program::from_text(kTriangle, "triangle.nc"), Settings(), *make_ideal());
+  const twin::Run result =
+      run(Program::from_text(kTriangle, "triangle.nc"), Settings(), *make_ideal());
   const Summary& summary = result.summary;
   EXPECT_EQ(summary.text("program"), "triangle.nc");
   EXPECT_EQ(summary.text("hal"), "ideal");
@@ -117,7 +118,7 @@ TEST(Run, TheOperatorMayStopIt) {
   Panel panel;
   panel.stop();
   MemoryTrace trace;
-  const Run result =
+  const twin::Run result =
       run(Program::from_text("G21 G90\nG1 X60 F60\nM30\n"), Settings(), *make_ideal(),
           {.sinks = {&trace}, .is_wall_clock = true, .panel = &panel});
   ASSERT_TRUE(result.failure);
@@ -149,7 +150,7 @@ class FullSink final : public TraceSink {
 
 TEST(Run, ASinkThatFailsEndsIt) {
   FullSink sink;
-  const Run result =
+  const twin::Run result =
       run(Program::from_text(kTriangle), Settings(), *make_ideal(), {.sinks = {&sink}});
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(to_string(*result.failure), "sink: is full");
@@ -194,7 +195,7 @@ class OwnMachine final : public Machine {
 
 TEST(Run, AMachineOfOnesOwnIsDrivenAndSwitchedOff) {
   OwnMachine machine(true);
-  const Run result = run(Program::from_text(kTriangle), Settings(), machine);
+  const twin::Run result = run(Program::from_text(kTriangle), Settings(), machine);
   EXPECT_FALSE(result.failure);
   EXPECT_EQ(result.summary.text("hal"), "own");
   EXPECT_EQ(result.summary.number("tracking_error_um.x.max"), 0.0);

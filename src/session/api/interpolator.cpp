@@ -9,7 +9,7 @@ std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Interpolator::Interpolator(const Program& program, const Settings& settings)
     : data_(std::make_unique<Data>()) {
-  const Program::Data& from = Inside::of(program);
+  const auto& from = Inside::of(program);
   const config::MachineFile& machine = Inside::of(settings);
   data_->points = value_of(runtime::SetPoints::open(from.source, machine, from.feedrate));
   data_->period = machine.period;

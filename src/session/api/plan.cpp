@@ -6,7 +6,7 @@
 namespace twin {
 
 Plan plan(const Program& program, const Settings& settings) {
-  const Program::Data& data = Inside::of(program);
+  const auto& data = Inside::of(program);
   const config::MachineFile& machine = Inside::of(settings);
   const auto estimate = value_of(
       runtime::estimate_program(data.source, {.feedrate = data.feedrate}, machine, nullptr));
@@ -30,7 +30,7 @@ Plan Inside::plan(const Program& program, const Settings& settings,
 }
 
 double Plan::bound() const {
-  const Program::Data& data = Inside::of(program_);
+  const auto& data = Inside::of(program_);
   return value_of(runtime::time_bound(data.source, Inside::of(settings_), data.feedrate));
 }
 
