@@ -213,5 +213,16 @@ TEST(Run, AMachineThatRefusesIsAFailureBeforeAnythingMoves) {
   }
 }
 
+TEST(Run, AFaultOfTheEmulatedRigIsItsFailure) {
+  const Settings settings;
+  const Program program = Program::from_text("G21 G90\nG1 X60 F600\nM30\n");
+  const auto rig = make_emulated_rig(settings, {"alarm:x@1.5"});
+  const twin::Run result = run(program, settings, *rig);
+  ASSERT_TRUE(result.failure);
+  EXPECT_EQ(result.failure->code, ErrorCode::kMachine);
+  EXPECT_THAT(to_string(*result.failure), testing::HasSubstr("alarm"));
+  EXPECT_THROW(make_emulated_rig(settings, {"nonsense@1"}), Failure);
+}
+
 }  // namespace run_test
 }  // namespace twin
