@@ -7,14 +7,7 @@ namespace twin::cli {
 
 std::unique_ptr<hal::Machine> make_machine(const std::string& hal,
                                            const config::MachineFile& machine) {
-<<<<<<< HEAD
   return *session::make_simulated_machine(hal, machine);
-=======
-  if (hal == "ideal") {
-    return std::make_unique<hal::ideal::IdealMachine>();
-  }
-  return std::make_unique<hal::mujoco::MujocoMachine>(machine.table);
->>>>>>> 02243a005df6afefbea230d12ffc91c8a519bad2
 }
 
 Expected<std::unique_ptr<hal::Machine>> open_machine(const Options& options,
