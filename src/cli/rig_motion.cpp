@@ -22,8 +22,8 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move, const Options&
   const std::string text =
       fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == 'x' ? 'X' : 'Y', move.distance,
                   units::mm_per_min_from_mm_per_s(move.feedrate));
-  auto written = prepare_output_file(request.program).and_then([&] {
-    return write_whole_file(request.program, text);
+  auto written = prepare_output_file(request.program.file).and_then([&] {
+    return write_whole_file(request.program.file, text);
   });
   if (!written) {
     return tl::unexpected(written.error());
