@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "feedrate/profile/ramp_limits.hpp"
+#include "feedrate/profile/ramps.hpp"
 #include "motion/interpolator/interpolator.hpp"
 #include "results/metrics/override_record.hpp"
 #include "results/trace/sample.hpp"

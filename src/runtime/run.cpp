@@ -197,10 +197,10 @@ results::Summary Run::summarise(double wall_time) {
   summary.program = request_.program.file.filename().string();
   summary.machine = machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
-  summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(machine.path.curves)];
+  summary.interpolator = kCurveNames[static_cast<std::size_t>(machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = machine.period;
-  put_into(summary, figures, is_certified(machine.path, machine.planning));
+  put_into(summary, figures, machine.path.planner == Planner::kCertified);
   summary.planned_time = outlook_.planned_time.value_or(figures.time);
   summary.overrides = feed_.records();
   recorder_.summarise(summary);

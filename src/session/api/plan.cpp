@@ -23,7 +23,7 @@ Plan Inside::plan(const Program& program, const Settings& settings,
   plan.curves_ = figures.curves;
   plan.lines_ = figures.lines;
   plan.arcs_ = figures.arcs;
-  if (is_certified(machine.path, machine.planning)) {
+  if (machine.path.planner == Planner::kCertified) {
     plan.certified_deviation_ = figures.deviation;
   }
   return plan;

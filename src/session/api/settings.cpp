@@ -47,13 +47,6 @@ auto use_setting(const config::MachineFile& machine, std::string_view key, const
   return use(*found);
 }
 
-std::vector<std::string> notes_of(const auto& machine) {
-  if constexpr (requires { machine.notes; }) {
-    return machine.notes;
-  }
-  return {};
-}
-
 }  // namespace
 
 Settings Inside::settings(config::MachineFile machine) {
@@ -121,6 +114,6 @@ std::vector<std::string> Settings::keys() const {
 
 std::string Settings::name() const { return data_->machine.name; }
 std::string Settings::toml() const { return config::to_toml(data_->machine); }
-std::vector<std::string> Settings::notes() const { return notes_of(data_->machine); }
+std::vector<std::string> Settings::notes() const { return data_->machine.notes; }
 
 }  // namespace twin

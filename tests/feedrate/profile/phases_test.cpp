@@ -1,11 +1,11 @@
-#include "feedrate/profile/phase.hpp"
+#include "feedrate/profile/phases.hpp"
 
 #include <gtest/gtest.h>
 
 #include "s_curve.hpp"
 
 namespace twin::feedrate {
-namespace phase_test {
+namespace phases_test {
 
 using testing::log_uniform;
 
@@ -106,15 +106,15 @@ TEST(Phases, OfRandomHumpsJoinAndKeepTheLimits) {
     const double v1 = random() % 4 == 0 ? 0.0 : log_uniform(random, 0.01, 300.0);
     const double most = ramp_reach(v1, d, limits);
     const double v2 = v1 + (most - v1) * std::uniform_real_distribution<double>()(random);
-    const Knot low{1.0, v1};
-    const Knot high{1.0 + d, v2};
+    const Anchor low{1.0, v1};
+    const Anchor high{1.0 + d, v2};
     const double cap = v2 * log_uniform(random, 1.0, 5.0) + 0.01;
     ASSERT_NO_FATAL_FAILURE(expect_whole(make_hump(low, high, cap, limits), limits, 1e-6));
-    const Knot fast{1.0, v2};
-    const Knot slow{1.0 + d, v1};
+    const Anchor fast{1.0, v2};
+    const Anchor slow{1.0 + d, v1};
     ASSERT_NO_FATAL_FAILURE(expect_whole(make_hump(fast, slow, cap, limits), limits, 1e-6));
   }
 }
 
-}  // namespace phase_test
+}  // namespace phases_test
 }  // namespace twin::feedrate

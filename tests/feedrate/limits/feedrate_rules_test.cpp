@@ -1,14 +1,13 @@
-#include "feedrate/limits/feedrate_rule.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 #include <gtest/gtest.h>
 
-#include "feedrate/limits/curvature_limit.hpp"
 #include "tests/path/blocks.hpp"
 #include "tests/support/plan.hpp"
 #include "tests/support/random_program.hpp"
 
 namespace twin::feedrate {
-namespace feedrate_rule_test {
+namespace feedrate_rules_test {
 
 constexpr double kPeriod = 1e-3;  // [s]
 const Limits kLimits;
@@ -23,8 +22,8 @@ FeedrateRules rules(FeedrateRule rule, CurveKind curves = CurveKind::kNurbs) {
 
 TEST(FeedrateRules, ConstantIsTheProgrammedFeedrateAtAnyCurvature) {
   for (double curvature = 0.0; curvature < 1e4; curvature = 1.5 * curvature + 0.01) {
-    EXPECT_EQ(rules(FeedrateRule::kConstant).limit_at({curvature}, 50.0, true), 50.0);
-    EXPECT_EQ(rules(FeedrateRule::kConstant).limit_at({curvature}, 50.0, false), 50.0);
+    EXPECT_EQ(rules(FeedrateRule::kConstant).limit_at({curvature}, 50.0, On::kCurve), 50.0);
+    EXPECT_EQ(rules(FeedrateRule::kConstant).limit_at({curvature}, 50.0, On::kArcOrLine), 50.0);
   }
 }
 
@@ -32,12 +31,12 @@ TEST(FeedrateRules, AutoIsTheServoModelButConstantOnBezierPieces) {
   const LocalGeometry round{2.0};
   const double servo = curvature_feedrate(2.0, 50.0, {}, kLimits);
   ASSERT_LT(servo, 35.0);
-  EXPECT_EQ(rules(FeedrateRule::kServoModel).limit_at(round, 50.0, true), servo);
-  EXPECT_EQ(rules(FeedrateRule::kServoModel, CurveKind::kBezier).limit_at(round, 50.0, true),
+  EXPECT_EQ(rules(FeedrateRule::kServoModel).limit_at(round, 50.0, On::kCurve), servo);
+  EXPECT_EQ(rules(FeedrateRule::kServoModel, CurveKind::kBezier).limit_at(round, 50.0, On::kCurve),
             servo);
   for (const CurveKind curves : {CurveKind::kNurbs, CurveKind::kBezier, CurveKind::kNone}) {
-    EXPECT_EQ(rules(FeedrateRule::kAuto, curves).limit_at(round, 50.0, false), servo);
-    EXPECT_EQ(rules(FeedrateRule::kAuto, curves).limit_at(round, 50.0, true),
+    EXPECT_EQ(rules(FeedrateRule::kAuto, curves).limit_at(round, 50.0, On::kArcOrLine), servo);
+    EXPECT_EQ(rules(FeedrateRule::kAuto, curves).limit_at(round, 50.0, On::kCurve),
               curves == CurveKind::kBezier ? 50.0 : servo);
   }
 }
@@ -51,7 +50,7 @@ TEST(FeedrateRules, AllButConstantKeepTheNormalAccelerationAndTheLargestFeedrate
     const FeedrateRules tested(kLimits, model, {}, kPeriod);
     for (double curvature = 1e-4; curvature < 1e4; curvature *= 1.1) {
       for (const double sign : {1.0, -1.0}) {
-        const double v = tested.limit_at({curvature, 1.0, sign * curvature}, 150.0, true);
+        const double v = tested.limit_at({curvature, 1.0, sign * curvature}, 150.0, On::kCurve);
         EXPECT_GT(v, 0.0);
         EXPECT_LE(v, kLimits.feedrate);
         EXPECT_LE(curvature * v * v, kLimits.acceleration * (1.0 + 1e-12));
@@ -70,6 +69,8 @@ TEST(FeedrateRules, RandomProgramsArePlannedWholeByEachRule) {
       settings.look_ahead = i % 2 == 0 ? 20 : 200;
       settings.period = i % 3 == 0 ? 4e-3 : 1e-3;
       settings.model.feedrate_rule = rule;
+      settings.path.planner =
+          rule == FeedrateRule::kChordError ? Planner::kCertified : Planner::kPaper;
       settings.model.tool_radius = 2.0;
       settings.model.tool_side = i % 4 == 0 ? ToolSide::kLeft : ToolSide::kRight;
       const auto planned = testing::plan(blocks, settings);
@@ -81,5 +82,5 @@ TEST(FeedrateRules, RandomProgramsArePlannedWholeByEachRule) {
   }
 }
 
-}  // namespace feedrate_rule_test
+}  // namespace feedrate_rules_test
 }  // namespace twin::feedrate

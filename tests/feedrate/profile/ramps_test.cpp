@@ -1,4 +1,4 @@
-#include "feedrate/profile/ramp.hpp"
+#include "feedrate/profile/ramps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "s_curve.hpp"
 
 namespace twin::feedrate {
-namespace ramp_test {
+namespace ramps_test {
 
 using testing::log_uniform;
 using testing::SCurve;
@@ -114,5 +114,5 @@ TEST(Ramp, StartAndStopAt3000MillimetresPerMinuteLoseTheRootOfVOverJ) {
   EXPECT_NEAR(lost, 0.0316, 0.00005);
 }
 
-}  // namespace ramp_test
+}  // namespace ramps_test
 }  // namespace twin::feedrate

@@ -1,4 +1,4 @@
-#include "feedrate/limits/corner_limit.hpp"
+#include "feedrate/limits/corners.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/units.hpp"
 
 namespace twin::feedrate {
-namespace corner_limit_test {
+namespace corners_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr PlanningModel kTable2{313.95, 0.0, 0.005, 0.01};
@@ -64,5 +64,5 @@ TEST(CornerLimit, RippleShortensTheChordByLittleAgainstJerk) {
   }
 }
 
-}  // namespace corner_limit_test
+}  // namespace corners_test
 }  // namespace twin::feedrate

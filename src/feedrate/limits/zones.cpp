@@ -1,12 +1,16 @@
-#include "feedrate/limits/segment_limits.hpp"
+#include "feedrate/limits/zones.hpp"
 
 #include <algorithm>
-
-#include "feedrate/limits/zone_row.hpp"
 
 namespace twin::feedrate {
 namespace {
 
+/// Ratio of limits that share a zone. It trades time for work: up to 1 % of the feedrate is lost in
+/// a zone, and with twice the difference about half as many zones are planned.
+constexpr double kSameLimit = 1.01;
+
+/// Places of an arc outside the XY plane at which the rule is asked, where it depends on the
+/// heading: every 2 degrees of a circle. Twice as many follow the heading twice as closely.
 constexpr std::size_t kArcSamples = 181;
 
 /// Zones between successive samples.
@@ -34,7 +38,7 @@ void append_curve_limits(const path::FittedCurve& curve, double feedrate, double
         const LocalGeometry at =
             needs_turning ? local_geometry(path::point_from(curve.curve.derivatives(sample.u)))
                           : LocalGeometry{sample.curvature};
-        return rules.limit_at(at, feedrate, true);
+        return rules.limit_at(at, feedrate, On::kCurve);
       },
       zones);
 }
@@ -47,7 +51,8 @@ void append_tilted_arc_limits(const path::Arc& arc, double feedrate, double s0,
   append_sampled(
       kArcSamples, s0, place,
       [&](std::size_t i) {
-        return rules.limit_at(local_geometry(path::point_at(arc, place(i))), feedrate, false);
+        return rules.limit_at(local_geometry(path::point_at(arc, place(i))), feedrate,
+                              On::kArcOrLine);
       },
       zones);
 }
@@ -57,6 +62,25 @@ bool is_tilted(const path::Arc& arc) {
 }
 
 }  // namespace
+
+void ZoneRow::append(const LimitZone& zone) {
+  if (!is_empty()) {
+    LimitZone& before = zones_.back();
+    const double low = std::min(before.limit, zone.limit);
+    if (std::max(highest_, zone.limit) <= kSameLimit * low) {
+      highest_ = std::max(highest_, zone.limit);
+      before.limit = low;
+      before.end = zone.end;
+      before.acceleration = std::min(before.acceleration, zone.acceleration);
+      before.jerk = std::min(before.jerk, zone.jerk);
+      return;
+    }
+  }
+  highest_ = zone.limit;
+  zones_.push_back(zone);
+}
+
+void ZoneRow::lower_last(double limit) noexcept { highest_ = zones_.back().limit = limit; }
 
 void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
                            const FeedrateRules& rules, std::vector<LimitZone>& zones) {
@@ -74,10 +98,11 @@ void append_segment_limits(const path::Segment& segment, double s0, double feedr
   const LocalGeometry at = rules.needs_turning()
                                ? local_geometry(begin < end ? segment.end : segment.begin)
                                : LocalGeometry{std::max(begin, end)};
-  zones.push_back({s0, s0 + segment.length, rules.limit_at(at, feedrate, false)});
+  zones.push_back({s0, s0 + segment.length, rules.limit_at(at, feedrate, On::kArcOrLine)});
 }
 
-double curvature_near_end(const path::Segment& segment, bool at_end, double distance) {
+double curvature_near(SegmentEnd which, const path::Segment& segment, double distance) {
+  const bool at_end = which == SegmentEnd::kEnd;
   double largest = (at_end ? segment.end : segment.begin).curvature.norm();
   if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     const auto take = [&](const geometry::CurvatureSample& sample) {

@@ -1,12 +1,12 @@
-#include "feedrate/limits/segment_limits.hpp"
+#include "feedrate/limits/zones.hpp"
 
 #include <gtest/gtest.h>
 
-#include "feedrate/limits/curvature_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 #include "tests/path/blocks.hpp"
 
 namespace twin::feedrate {
-namespace segment_limits_test {
+namespace zones_test {
 
 using path::testing::build;
 using path::testing::polyline;
@@ -111,11 +111,11 @@ TEST(CurvatureNearEnd, IsTheLargestWithinTheDistance) {
         begin = sample.s <= distance ? std::max(begin, sample.curvature) : begin;
         end = segment.length - sample.s <= distance ? std::max(end, sample.curvature) : end;
       }
-      EXPECT_EQ(curvature_near_end(segment, false, distance), begin);
-      EXPECT_EQ(curvature_near_end(segment, true, distance), end);
+      EXPECT_EQ(curvature_near(SegmentEnd::kBegin, segment, distance), begin);
+      EXPECT_EQ(curvature_near(SegmentEnd::kEnd, segment, distance), end);
     }
   }
 }
 
-}  // namespace segment_limits_test
+}  // namespace zones_test
 }  // namespace twin::feedrate

@@ -1,9 +1,35 @@
-#include "feedrate/profile/brake.hpp"
+#include "feedrate/profile/phases.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace twin::feedrate {
+
+double time_at(const Phase& phase, double s) noexcept {
+  double low = 0.0;
+  double high = phase.duration;
+  double t = phase.v > 0.0 ? std::clamp((s - phase.s) / phase.v, low, high) : 0.5 * high;
+  for (int i = 0; i < 100 && high - low > 1e-15 * phase.duration; ++i) {
+    const PathMotion m = motion_at(phase, t);
+    const double error = m.s - s;
+    if (error == 0.0) {
+      break;
+    }
+    (error > 0.0 ? high : low) = t;
+    const double newton = t - error / m.v;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (std::abs(next - t) < 1e-16) {
+      break;
+    }
+    t = next;
+  }
+  return t;
+}
+
+Phase remainder_after(const Phase& phase, double t) noexcept {
+  const PathMotion m = motion_at(phase, t);
+  return {phase.duration - t, m.s, m.v, m.a, phase.j};
+}
 
 Brake make_brake(const PathMotion& from, const RampLimits& limits) noexcept {
   const double a_max = limits.acceleration;

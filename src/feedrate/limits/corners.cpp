@@ -1,17 +1,19 @@
-#include "feedrate/limits/junction_limits.hpp"
+#include "feedrate/limits/corners.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
-#include "feedrate/limits/corner_limit.hpp"
-#include "feedrate/limits/segment_limits.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
 
-constexpr double kNoTurn = 1e-7;  // turn that is none [rad]
+/// Share of J_max that a hidden corner may seem to be. It trades feedrate at such corners for jerk
+/// that the set points seem to have: twice as much allows twice the feedrate.
+constexpr double kRipple = 0.1;
 
 double turn_between(const Vec3& before, const Vec3& after) {
   return std::atan2(before.cross(after).norm(), before.dot(after));
@@ -25,6 +27,27 @@ double passing_feedrate(double turn, double curvature, const RampLimits& ramp, d
 }
 
 }  // namespace
+
+double corner_model_feedrate(double turn, double corner_error,
+                             const PlanningModel& model) noexcept {
+  const double c = std::sin(0.5 * turn);  // cos(theta / 2)
+  return c > 0.0 ? model.kp / (1.0 - model.kf) * corner_error / c
+                 : std::numeric_limits<double>::infinity();
+}
+
+double corner_acceleration_feedrate(double turn, double curvature, double acceleration,
+                                    double period) noexcept {
+  const double c = 2.0 * std::sin(0.5 * turn);
+  const double k = curvature * period;
+  const double at = acceleration * period;
+  const double root = c + std::sqrt(c * c + 4.0 * k * at);  // 2 A T / v
+  return root > 0.0 ? 2.0 * at / root : std::numeric_limits<double>::infinity();
+}
+
+double corner_ripple_feedrate(double turn, double jerk, double period) noexcept {
+  return turn > 0.0 ? 2.0 * kRipple * jerk * period * period / (turn * turn)
+                    : std::numeric_limits<double>::infinity();
+}
 
 JunctionLimits::JunctionLimits(const Limits& limits, const PlanningModel& model, double period)
     : limits_(limits), model_(model), ramp_{limits.acceleration, limits.jerk}, period_(period) {}
@@ -41,8 +64,8 @@ void JunctionLimits::append(const path::Segment& before, const path::Segment& af
     return;
   }
   const double reach = limits_.feedrate * period_;
-  const double curvature =
-      std::max(curvature_near_end(before, true, reach), curvature_near_end(after, false, reach));
+  const double curvature = std::max(curvature_near(SegmentEnd::kEnd, before, reach),
+                                    curvature_near(SegmentEnd::kBegin, after, reach));
   const double corner_error = std::min(before.corner_error, after.corner_error);
   double limit = std::min(corner_model_feedrate(turn, corner_error, model_),
                           passing_feedrate(turn, curvature, ramp_, period_));
@@ -54,10 +77,10 @@ void JunctionLimits::append(const path::Segment& before, const path::Segment& af
   limit_cluster(turn, s, zones);
 }
 
-/// Corners a few periods apart limit each other. Where the turns of several corners, over the
-/// distance l from the first to the last, sum to phi, the feedrate either keeps them apart (v T <=
-/// l) or obeys the corner rule for phi. And where one hides the other from the set points, it
-/// either puts kHidingPeriods between them or keeps the ripple small.
+/// Limits corners a few periods apart by each other. Where the turns of several corners, over the
+/// distance l from the first to the last, sum to phi, either the feedrate keeps them apart
+/// (v T <= l), or it obeys the corner rule for phi. Where one corner hides another from the set
+/// points, either the feedrate puts kHidingPeriods between them, or it keeps the ripple small.
 void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>& zones) {
   LimitZone& latest = zones.back();
   const auto lower = [](LimitZone& zone, double limit) {
