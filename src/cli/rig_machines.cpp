@@ -103,12 +103,9 @@ std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machin
 
 Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& options,
                                                             const config::MachineFile& machine) {
-  auto attached = rig::boards::SharedRegisters::attach(shared_name(options),
-                                                       rig::boards::SharedRole::kController);
-  if (!attached) {
-    return tl::unexpected(attached.error());
-  }
-  const std::shared_ptr<rig::boards::SharedRegisters> shared = std::move(*attached);
+  TWIN_TRY(auto attached, rig::boards::SharedRegisters::attach(
+                              shared_name(options), rig::boards::SharedRole::kController));
+  const std::shared_ptr<rig::boards::SharedRegisters> shared = std::move(attached);
   auto guard = std::make_shared<rig::guard::GuardProcess>();
   const auto open = [guard, shared, machine, name = shared_name(options)] {
     return guard->start(guard_target(machine, "shared:" + name)).and_then([&] {
@@ -124,11 +121,8 @@ Expected<std::unique_ptr<rig::RigMachine>> make_emulated_rig(const Options& opti
                                                              const config::MachineFile& machine) {
   std::vector<rig::emulator::Fault> faults;
   for (const std::string& text : options.faults) {
-    auto fault = rig::emulator::parse_fault(text);
-    if (!fault) {
-      return tl::unexpected(fault.error());
-    }
-    faults.push_back(*fault);
+    TWIN_TRY(auto fault, rig::emulator::parse_fault(text));
+    faults.push_back(fault);
   }
   const std::shared_ptr<rig::emulator::EmulatedRig> bench(
       new rig::emulator::EmulatedRig(machine.table, machine.rig, std::move(faults)),
@@ -198,22 +192,16 @@ Expected<std::unique_ptr<rig::RigMachine>> make_rig(RigKind kind, const Options&
 Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
                                                     const config::MachineFile& machine,
                                                     const std::string& what) {
-  const auto kind = find_rig(options, machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  if (*kind != RigKind::kEmulated && (!options.faults.empty() || !options.rig_log.empty())) {
+  TWIN_TRY(const auto kind, find_rig(options, machine));
+  if (kind != RigKind::kEmulated && (!options.faults.empty() || !options.rig_log.empty())) {
     return fail(ErrorCode::kUsage,
                 fmt::format("--fault and --rig-log are for --rig emulated, and this rig is: {}; an "
                             "emulator's process takes --fault by itself",
-                            describe(*kind)));
+                            describe(kind)));
   }
-  auto opened = make_rig(*kind, options, machine);
+  auto opened = make_rig(kind, options, machine);
   if (opened) {
-    auto confirmed = confirm_motion((*opened)->info(), options.i_know_it_moves, what);
-    if (!confirmed) {
-      return tl::unexpected(std::move(confirmed.error()));
-    }
+    TWIN_CHECK(confirm_motion((*opened)->info(), options.i_know_it_moves, what));
   }
   return opened;
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/hal/table_files.hpp"
 
@@ -98,7 +99,7 @@ TEST(Model, TableOfTheRepositoryHasThreeJointsAndNoGeomsInPhysics) {
 }
 
 TEST(Model, ErrorsOfMujocoBecomeExceptions) {
-  install_mujoco_handlers();
+  ASSERT_TRUE(MujocoLibrary::load());
   EXPECT_THROW(mju_error("told to fail"), MujocoError);
 }
 
