@@ -9,6 +9,9 @@
 
 namespace twin::runtime {
 
+/// What was thrown, as an error of the run; called in a catch block. @param where who threw it
+Error thrown(const char* where);
+
 /// Why a motion ended early, for the user; nothing if it did not.
 ///
 /// @param last  what was recorded last

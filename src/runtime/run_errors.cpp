@@ -1,8 +1,24 @@
-#include "runtime/motion_end.hpp"
+#include "runtime/run_errors.hpp"
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <string>
+
 namespace twin::runtime {
+
+Error thrown(const char* where) {
+  std::string what = "unknown exception";
+  try {
+    throw;
+  } catch (const std::exception& exception) {
+    what = exception.what();
+  } catch (...) {
+  }
+  return {.code = ErrorCode::kMachine,
+          .message = fmt::format("{} failed: {}", where, what),
+          .file = {}};
+}
 
 std::optional<Error> describe_end(const MotionResult& motion, const results::Sample& last,
                                   const hal::Machine* hal) {
