@@ -74,6 +74,7 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   request.directory = result_folder(options, *program);
   request.is_wall_clock = options.realtime || (hal && hal->info().keeps_own_time);
   request.stop = &stop;
+  request.command = options.command;
   request.overrides = std::move(overrides);
   auto result = run_with_operator(options, request);
   if (!result) {

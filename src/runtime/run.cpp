@@ -7,6 +7,9 @@
 #include <thread>
 #include <utility>
 
+#include "config/settings.hpp"
+#include "core/sha256.hpp"
+#include "core/version.hpp"
 #include "hal/active_machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "runtime/cycle_time.hpp"
@@ -206,12 +209,19 @@ results::Summary Run::summarise(double wall_time) {
   summary.program = request_.program.filename().string();
   summary.machine = request_.machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
+  summary.planner =
+      is_certified(request_.machine.path, request_.machine.planning) ? "certified" : "paper";
   summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
   put_into(summary, plan_figures_, is_certified(request_.machine.path, request_.machine.planning));
   summary.planned_time = planned_time_.value_or(plan_figures_.time);
   summary.overrides = feed_.records();
+  summary.notes = request_.notes;
+  summary.version = version();
+  summary.command = request_.command;
+  summary.program_sha256 = sha256_of_file(request_.program);
+  summary.settings = config::settings_of(request_.machine);
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "studies/identify/identification_report.hpp"
 #include "studies/identify/identify.hpp"
-#include "studies/identify/report.hpp"
 
 namespace twin::studies::identify {
 namespace hidden_machine_test {
