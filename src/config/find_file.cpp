@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "config/nearest_name.hpp"
+#include "core/own_folders.hpp"
 
 namespace twin::config {
 namespace {
@@ -36,17 +37,17 @@ std::vector<std::string> names_in(std::span<const fs::path> folders, std::string
 }  // namespace
 
 std::vector<fs::path> data_folders(std::string_view name) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path candidates[] = {
-      fs::path(name),
-      program.parent_path().parent_path() / TWIN_INSTALL_DATADIR / "twin" / name,
-      fs::path(TWIN_SOURCE_DIR) / name,
-      fs::path(TWIN_BINARY_DIR) / name,
-  };
+  std::vector<fs::path> candidates{fs::path(name)};
+  for (const fs::path& own : own_folders()) {
+    // A program is in PREFIX/bin, a library in PREFIX/lib or one folder further down.
+    for (const fs::path& prefix : {own.parent_path(), own.parent_path().parent_path()}) {
+      candidates.push_back(prefix / TWIN_INSTALL_DATADIR / "twin" / name);
+    }
+  }
+  candidates.push_back(fs::path(TWIN_SOURCE_DIR) / name);
+  candidates.push_back(fs::path(TWIN_BINARY_DIR) / name);
   std::vector<fs::path> folders;
-  std::copy_if(std::begin(candidates), std::end(candidates), std::back_inserter(folders),
-               is_folder);
+  std::ranges::copy_if(candidates, std::back_inserter(folders), is_folder);
   return folders;
 }
 

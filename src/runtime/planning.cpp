@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "feedrate/look_ahead.hpp"
-#include "path/builder.hpp"
+#include "feedrate/planner.hpp"
 
 namespace twin::runtime {
 
@@ -56,11 +56,12 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
                                    }
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  const auto builder = path::make_builder(
-      machine.path, machine.planning, machine.limits, [&](path::Segment&& segment) {
-        count(segment, machine.path.short_block_length, figures);
-        look_ahead.push(std::move(segment));
-      });
+  const auto planner =
+      feedrate::make_planner(machine.limits, machine.planning, machine.path, machine.period);
+  const auto builder = planner->make_builder([&](path::Segment&& segment) {
+    count(segment, machine.path.short_block_length, figures);
+    look_ahead.push(std::move(segment));
+  });
   while (goes_on) {
     auto block = reader.next();
     if (!block) {

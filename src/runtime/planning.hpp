@@ -40,7 +40,7 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
 
 /// The figures of a plan where the summary has them.
 ///
-/// @param is_certified  the deviation is a certified one, twin::is_certified()
+/// @param is_certified  the deviation is a certified one: planning.planner
 void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified);
 
 }  // namespace twin::runtime

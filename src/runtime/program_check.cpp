@@ -53,7 +53,7 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   if (block.motion != gcode::Motion::kArc) {
     return;
   }
-  const gcode::ArcGeometry& arc = block.arc;
+  const geometry::Arc& arc = block.arc;
   for (int axis = 0; axis < 3; ++axis) {
     const double first = std::atan2(arc.e2[axis], arc.e1[axis]);
     for (int half_turn = -1; half_turn <= 3; ++half_turn) {

@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "feedrate/planner.hpp"
+
 namespace twin::runtime {
 namespace {
 
@@ -23,8 +25,9 @@ ProgramPlanner::ProgramPlanner(gcode::Reader& reader, const config::MachineFile&
       machine_(machine),
       queue_(queue),
       link_(link),
-      builder_(path::make_builder(machine.path, machine.planning, machine.limits,
-                                  [this](path::Segment&& segment) { take(std::move(segment)); })),
+      builder_(
+          feedrate::make_planner(machine.limits, machine.planning, machine.path, machine.period)
+              ->make_builder([this](path::Segment&& segment) { take(std::move(segment)); })),
       path_(kLeadInPeriods * machine.limits.feedrate * machine.period),
       active_(
           std::make_unique<PlanVersion>(machine, PlanStart{.percent = percent}, link != nullptr)) {}

@@ -60,6 +60,7 @@ class Run {
   void move();
   void guarded_move() noexcept;
   void take(const results::Sample& sample);
+  void flush();
   void record();
   void run_threads(gcode::Reader& reader);
   std::optional<Error> failure() const;
@@ -152,6 +153,17 @@ void Run::take(const results::Sample& sample) {
   }
 }
 
+/// Hands the rows of this turn to the sinks.
+void Run::flush() {
+  if (record_error_) {
+    return;
+  }
+  if (auto taken = recorder_.flush(); !taken) {
+    record_error_ = taken.error();
+    stop_ = true;
+  }
+}
+
 /// Drains the samples until the motion has ended. Nothing escapes: what throws brakes the machine.
 void Run::record() {
   results::Sample sample;
@@ -163,6 +175,7 @@ void Run::record() {
         is_empty = false;
         take(sample);
       }
+      flush();
       if (request_.stop != nullptr && request_.stop->load()) {
         stop_ = true;
       }
@@ -209,15 +222,14 @@ results::Summary Run::summarise(double wall_time) {
   summary.program = request_.program.filename().string();
   summary.machine = request_.machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
-  summary.planner =
-      is_certified(request_.machine.path, request_.machine.planning) ? "certified" : "paper";
-  summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
+  summary.planner = kPlannerNames[static_cast<std::size_t>(request_.machine.path.planner)];
+  summary.interpolator = kCurveNames[static_cast<std::size_t>(request_.machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = request_.machine.period;
-  put_into(summary, plan_figures_, is_certified(request_.machine.path, request_.machine.planning));
+  put_into(summary, plan_figures_, request_.machine.path.planner == Planner::kCertified);
   summary.planned_time = planned_time_.value_or(plan_figures_.time);
   summary.overrides = feed_.records();
-  summary.notes = request_.notes;
+  summary.notes = request_.machine.notes;
   summary.version = version();
   summary.command = request_.command;
   summary.program_sha256 = sha256_of_file(request_.program);
@@ -270,6 +282,15 @@ Expected<RunResult> Run::execute() {
   return result;
 }
 
+/// Makes the folder of the results, and that of the plots in it.
+Expected<void> make_folders(const std::filesystem::path& directory) {
+  std::error_code code;
+  if (!directory.empty()) {
+    std::filesystem::create_directories(directory / "plots", code);
+  }
+  return code ? file_error(directory, "make this folder", code.value()) : Expected<void>{};
+}
+
 }  // namespace
 
 Expected<RunResult> run_program(const RunRequest& request) {
@@ -289,11 +310,7 @@ Expected<RunResult> run_program(const RunRequest& request) {
       request.estimated(plan->time);
     }
   }
-  std::error_code code;
-  std::filesystem::create_directories(request.directory / "plots", code);
-  if (code) {
-    return file_error(request.directory, "make this folder", code.value());
-  }
+  TWIN_CHECK(make_folders(request.directory));
   hal::ActiveMachine machine(request.hal);
   if (auto started = machine.start(request.machine.period); !started) {
     return tl::unexpected(started.error());

@@ -16,6 +16,7 @@
 #include "runtime/hooks.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
+#include "twin/trace.hpp"
 
 namespace twin::runtime {
 
@@ -23,10 +24,12 @@ namespace twin::runtime {
 struct RunRequest {
   std::filesystem::path program;  ///< NC program
   config::MachineFile machine;
-  hal::Machine* hal = nullptr;      ///< unconfigured machine; null: plan only
-  std::optional<double> feedrate;   ///< replaces the program's F words [mm/s]
-  std::filesystem::path directory;  ///< of the results; made when missing
-  bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock
+  hal::Machine* hal = nullptr;     ///< unconfigured machine; null: plan only
+  std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
+  std::filesystem::path
+      directory;                  ///< of the results; made when missing; empty: no file is written
+  std::vector<TraceSink*> sinks;  ///< get the rows of the trace, besides the files
+  bool is_wall_clock = false;     ///< one period of the cycle per period of the wall clock
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
   std::function<void(double)> estimated;    ///< gets the cycle time before anything moves [s]
@@ -34,8 +37,7 @@ struct RunRequest {
   OperatorPanel* panel = nullptr;           ///< for override and hold by an operator
   Until until;                              ///< ends the motion early, as at the path's end
   Hooks hooks;                              ///< for tests
-  std::string command;             ///< command line or other words of the caller, for the summary
-  std::vector<std::string> notes;  ///< what the caller changed of what was asked for, the same
+  std::string command;  ///< command line or other words of the caller, for the summary
 };
 
 /// How far a run got.

@@ -34,6 +34,7 @@ Pace pace_of(const RunRequest& request) {
 
 Recorder::Options recorder_options(const RunRequest& request) {
   return {.directory = request.directory,
+          .sinks = request.sinks,
           .program = request.program,
           .reader = reader_options(request),
           .limits = request.machine.limits,

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "core/sha256.hpp"
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // trace.csv and summary.json are read by other programs: names, order and units are an interface.
 namespace twin::cli {

@@ -1,4 +1,4 @@
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 
 namespace twin::cli {
 namespace usage_test {

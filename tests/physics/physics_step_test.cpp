@@ -1,4 +1,4 @@
-#include "tests/closed_loop/loop_fixture.hpp"
+#include "tests/support/loop_fixture.hpp"
 
 // Whole programs on the table: what they report must not hang on how finely time is cut.
 namespace twin {
@@ -9,7 +9,7 @@ class PhysicsStep : public test::LoopTest, public ::testing::WithParamInterface<
   results::MachineResults run_with(double share_of_step) const {
     config::MachineFile file = machine();
     file.table.physics_step *= share_of_step;
-    hal::MujocoMachine table(file.table);
+    hal::mujoco::MujocoMachine table(file.table);
     return execute(program(GetParam()), file, &table, std::nullopt)
         .run.value_or(results::MachineResults());
   }

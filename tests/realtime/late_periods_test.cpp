@@ -2,9 +2,9 @@
 
 #include "runtime/motion.hpp"
 #include "tests/realtime/fake_clock.hpp"
-#include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/planned.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/fake_machine.hpp"
+#include "tests/support/planned.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Motion on a wall clock that is late on purpose.
 namespace twin::runtime {

@@ -26,7 +26,7 @@ TEST_P(CycleTime, IsWhatTheRunTakesWithinAPeriod) {
     ASSERT_TRUE(plan) << to_string(plan.error());
     double shown = 0.0;
     request.estimated = [&](double time) { shown = time; };
-    hal::IdealMachine machine;
+    hal::ideal::IdealMachine machine;
     const auto result = run(&machine);
     ASSERT_TRUE(result && !result->failure) << entry.path();
     EXPECT_EQ(shown, plan->time);

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/runtime/planned.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/planned.hpp"
 
 namespace twin::runtime {
 namespace feed_control_test {
@@ -21,11 +21,11 @@ class FeedControlTest : public ::testing::Test {
   }
   /// One period; what it allocates is counted.
   motion::Status step() {
-    const std::int64_t before = hal::testing::allocations();
+    const std::int64_t before = test::allocations();
     control.update(t, stop);
     const motion::Status status = interpolator.step(point);
     control.show({});
-    allocated += hal::testing::allocations() - before;
+    allocated += test::allocations() - before;
     t += kPeriod;
     return status;
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/root.hpp"
+
 namespace twin::feedrate {
 namespace {
 
@@ -112,23 +114,22 @@ double Ascent::touching(const Phase& phase, double time, const Step& step) const
     }
   }
   low = std::max(low, 0.0);
-  double high = std::min(time, time_of(phase, step.limit));
+  const double high = std::min(time, time_of(phase, step.limit));
+  if (!(high > low)) {
+    return low;
+  }
   const double rise = phase.j > 0.0 ? 2.0 * jerk_ : jerk_;  // of a, per time that -J is later
-  double t = high;
-  for (int i = 0; i < 100 && high - low > 1e-16 * high; ++i) {
+  const auto missing_at = [&](double t) {  // distance to the middle of the places that touch [mm]
     const PathMotion at = motion_at(phase, t);
     const double above = crossing(at, step.limit) - step.end;
-    if (above >= 0.0 && above < kTouchRounding) {
-      return t;
-    }
-    (above > 0.0 ? low : high) = t;
     const double a = std::sqrt(std::max(at.a * at.a - 2.0 * jerk_ * (step.limit - at.v), 0.0));
     const double later = (at.a - a) / jerk_;
     const double slope = rise * later * (0.5 * later - (a > 0.0 ? step.limit / a : kInfinity));
-    const double newton = t - (above - 0.5 * kTouchRounding) / slope;
-    t = newton > low && newton < high ? newton : 0.5 * (low + high);
-  }
-  return low;
+    return ValueAndSlope{0.5 * kTouchRounding - above, -slope};
+  };
+  const NewtonRoot root =
+      bracketed_newton(missing_at, low, high, high, {0.5 * kTouchRounding, 0.0, 0.0, 100});
+  return root.is_met ? root.x : root.low;
 }
 
 void Ascent::append(double duration, double jerk) {

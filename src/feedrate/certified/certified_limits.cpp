@@ -6,7 +6,6 @@
 
 #include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/chord_limit.hpp"
-#include "feedrate/limits/segment_limits.hpp"
 #include "feedrate/limits/zone_row.hpp"
 
 namespace twin::feedrate {
@@ -17,6 +16,7 @@ constexpr double kTwistMargin = 1.05;      // of the third derivative, beside it
 constexpr double kValley = 0.5;            // of a bend's peak curvature, where it ends
 constexpr double kBesideBend = 0.01;       // of a bend's peak curvature, beside it
 constexpr int kArcParts = 48;              // of an arc, where axes have limits of their own
+constexpr double kRest = 0.25;  // of an axis's limits, beside what the feedrate takes of them
 
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
@@ -61,6 +61,7 @@ PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByAr
 CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& model,
                                  const PathSettings& path, double period)
     : limits_(limits),
+      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       lasting_(limits, model, path, period),
       brief_(limits, with_circular_error(model, model.corner_error), path, period),
       chord_error_(path.chord_error),
@@ -177,11 +178,33 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
   }
 }
 
+void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) const {
+  LimitZone& before = zones[first - 1];
+  const LimitZone& zone = zones[first];
+  if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
+      before.limit == zone.limit && before.acceleration == zone.acceleration &&
+      before.jerk == zone.jerk) {
+    before.end = zone.end;
+    zones.erase(zones.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+RampLimits CertifiedLimits::least_ramp() const {
+  RampLimits least = ramp_;
+  for (int i = 0; i < 3; ++i) {
+    if (limits_.axis_acceleration[i] > 0.0) {
+      least.acceleration = std::min(least.acceleration, kRest * limits_.axis_acceleration[i]);
+    }
+    if (limits_.axis_jerk[i] > 0.0) {
+      least.jerk = std::min(least.jerk, kRest * limits_.axis_jerk[i]);
+    }
+  }
+  return least;
+}
+
 void CertifiedLimits::append(const path::Segment& segment, double s0, double feedrate,
                              std::vector<LimitZone>& zones) {
-  if (lasting_.needs_turning()) {
-    append_segment_limits(segment, s0, feedrate, lasting_, zones);
-  } else if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     append_curve(*curve, s0, feedrate, zones);
   } else {
     append_arc(segment, s0, feedrate, zones);

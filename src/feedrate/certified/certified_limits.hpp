@@ -6,6 +6,7 @@
 #include "core/path_settings.hpp"
 #include "feedrate/limits/feedrate_rule.hpp"
 #include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/planner.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
@@ -32,7 +33,7 @@ namespace twin::feedrate {
 /// The curvature of a FittedCurve is sampled four times on each interval of its arc length, and
 /// those are divided until |C'| varies by less than 4 % (nurbs/arc_length.hpp); then C' x C'', a
 /// polynomial of degree 2, and |C'|^2 are within 0.3 % of the larger end between two samples.
-class CertifiedLimits {
+class CertifiedLimits final : public LimitSource {
  public:
   /// @param period  interpolation period [s]
   CertifiedLimits(const Limits& limits, const PlanningModel& model, const PathSettings& path,
@@ -41,7 +42,11 @@ class CertifiedLimits {
   /// Appends the zones of a segment that begins at s0.
   /// @param feedrate  asked for on it [mm/s]
   void append(const path::Segment& segment, double s0, double feedrate,
-              std::vector<LimitZone>& zones);
+              std::vector<LimitZone>& zones) override;
+  /// Makes the zone part of the one before it where both have the same limits.
+  void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
+  RampLimits least_ramp() const override;
+  bool has_zone_ramps() const override { return has_axis_limits_; }
 
  private:
   struct Interval {
@@ -61,6 +66,7 @@ class CertifiedLimits {
                   std::vector<LimitZone>& zones) const;
 
   Limits limits_;
+  RampLimits ramp_;
   FeedrateRules lasting_;
   FeedrateRules brief_;
   double chord_error_;

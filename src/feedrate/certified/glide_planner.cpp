@@ -10,11 +10,31 @@
 namespace twin::feedrate {
 namespace {
 
+constexpr double kBrakingDistances = 4.0;     // longest ones, of path between two plans
+constexpr std::size_t kMostSegments = 16384;  // of the window; then it is planned to rest
+constexpr std::size_t kFewestZones = 1024;    // between two plans for their number
+
 bool is_level(const Phase& phase) { return phase.a == 0.0; }
 
 }  // namespace
 
-void GlidePlanner::advance(Window& window, double last, bool is_last) {
+bool GlidePlanner::is_due(const Window& window) const {
+  return window.length >= due_.length || window.segments.size() >= due_.segments ||
+         window.zones.size() >= due_.zones;
+}
+
+void GlidePlanner::schedule(const Window& window) {
+  const double braking = longest_descent(window.fastest, window.fastest, ramp_);
+  due_.length = window.length + kBrakingDistances * braking + corner_reach_;
+  due_.segments = std::max(window.segments.size() + look_ahead_, kMostSegments / 4);
+  due_.zones = window.zones.size() + std::max(window.zones.size(), kFewestZones);
+}
+
+void GlidePlanner::advance(Window& window, double horizon, Tail tail) {
+  if (tail == Tail::kOpen && window.segments.size() >= kMostSegments) {
+    ++fallbacks_;
+    tail = Tail::kClosed;  // the window is full: it is planned to rest
+  }
   least_ = ramp_;
   fastest_ = 0.0;
   for (const LimitZone& zone : window.zones) {
@@ -22,14 +42,16 @@ void GlidePlanner::advance(Window& window, double last, bool is_last) {
     least_.acceleration = std::min(least_.acceleration, zone.acceleration);
     least_.jerk = std::min(least_.jerk, zone.jerk);
   }
-  while (!plan(window, last)) {
-    if (!fall_back(window, last, is_last)) {
+  while (!plan_until(window, horizon)) {
+    if (!fall_back(window, horizon, tail)) {
       return;
     }
   }
-  commit(window, is_last ? Cut{plan_.size(), 0.0} : last_final(window, last));
-  if (is_last) {
-    window.start = {last, 0.0};
+  if (tail == Tail::kClosed) {
+    commit(window, {plan_.size(), 0.0});
+    window.start = {horizon, 0.0};
+  } else {
+    commit(window, last_final(window, horizon));
   }
 }
 
@@ -39,15 +61,15 @@ void GlidePlanner::forget(double distance) {
   }
 }
 
-bool GlidePlanner::plan(const Window& window, double last) {
+bool GlidePlanner::plan_until(const Window& window, double horizon) {
   const Knot& start = window.start;
   const auto from =
       std::find_if(window.zones.begin(), window.zones.end(),
                    [&](const LimitZone& zone) { return zone.end > start.s + kPlaceRounding; });
   const auto to = std::partition_point(from, window.zones.end(), [&](const LimitZone& zone) {
-    return zone.begin < last - kPlaceRounding;
+    return zone.begin < horizon - kPlaceRounding;
   });
-  if (!glide_.plan({from, to}, start, {last, 0.0}, ramp_)) {
+  if (!glide_.plan({from, to}, start, {horizon, 0.0}, ramp_)) {
     return false;
   }
   plan_ = glide_.phases();
@@ -55,17 +77,17 @@ bool GlidePlanner::plan(const Window& window, double last) {
 }
 
 /// Makes the next plan possible; false where that needs more of the path.
-bool GlidePlanner::fall_back(Window& window, double last, bool is_last) {
+bool GlidePlanner::fall_back(Window& window, double horizon, Tail tail) {
   if (!plan_.empty()) {
     ++fallbacks_;
     commit(window, next_level());
     return true;
   }
-  if (!is_last) {
+  if (tail == Tail::kOpen) {
     return false;
   }
   ++fallbacks_;
-  if (!raise_limits(window, last, least_)) {
+  if (!raise_limits(window, horizon, least_)) {
     window.start.v = 0.0;
   }
   return true;
@@ -86,14 +108,14 @@ double GlidePlanner::descent_to(const Window& window, std::size_t zone, double v
 /// How far a hold may go on and still leave room to come down, with no acceleration, to any valley
 /// of the limits before `last`, and to any feedrate at all at `last`; negative where it is too far
 /// already.
-double GlidePlanner::room_after(const Window& window, const Knot& knot, double last) {
-  double room = last - knot.s - longest_descent(knot.v, knot.v, least_);
+double GlidePlanner::room_after(const Window& window, const Knot& knot, double horizon) {
+  double room = horizon - knot.s - longest_descent(knot.v, knot.v, least_);
   const auto& zones = window.zones;
   const auto from = std::partition_point(zones.begin(), zones.end(), [&](const LimitZone& zone) {
     return zone.end <= knot.s + kPlaceRounding;
   });
   for (auto i = static_cast<std::size_t>(from - zones.begin());
-       room >= 0.0 && i < zones.size() && zones[i].begin < last; ++i) {
+       room >= 0.0 && i < zones.size() && zones[i].begin < horizon; ++i) {
     const bool is_valley = i + 1 == zones.size() || zones[i + 1].limit > zones[i].limit;
     if (is_valley && zones[i].limit < knot.v) {
       const double most = zones[i].begin - knot.s;
@@ -103,14 +125,14 @@ double GlidePlanner::room_after(const Window& window, const Knot& knot, double l
   return room;
 }
 
-GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double last) {
+GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double horizon) {
   const Glide::Part& part = glide_.parts().back();
   for (std::size_t i = part.descent + 1; i-- > part.first;) {
     if (i >= plan_.size() || !is_level(plan_[i])) {
       continue;
     }
     const Phase& phase = plan_[i];
-    const double room = room_after(window, {phase.s, phase.v}, last);
+    const double room = room_after(window, {phase.s, phase.v}, horizon);
     if (room < -kPlaceRounding) {
       continue;
     }

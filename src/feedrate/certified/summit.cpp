@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/root.hpp"
+
 namespace twin::feedrate {
 namespace {
 
@@ -39,37 +41,19 @@ bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, S
     high = v_least;
   }
   summit.v = high;
-  double f_high = room_at(high);
-  if (f_high >= 0.0) {
+  const double room_high = room_at(high);
+  if (room_high >= 0.0) {
     return true;
   }
-  double low = v_least;
-  double f_low = room_at(low);
-  summit.v = low;
-  if (f_low < 0.0) {
-    return f_low >= -kDistanceRounding;
+  const double room_low = room_at(v_least);
+  summit.v = v_least;
+  if (room_low < 0.0) {
+    return room_low >= -kDistanceRounding;
   }
-  for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
-    double v = (low * f_high - high * f_low) / (f_high - f_low);
-    if (i % 3 == 2 || !(v > low && v < high)) {
-      v = 0.5 * (low + high);
-    }
-    const double f = room_at(v);
-    if (f < 0.0) {
-      high = v;
-      f_high = f;
-      f_low *= i % 3 == 2 ? 1.0 : 0.5;
-    } else {
-      low = v;
-      f_low = f;
-      f_high *= i % 3 == 2 ? 1.0 : 0.5;
-      if (f < 0.1 * kDistanceRounding) {
-        break;
-      }
-    }
-  }
-  summit.v = low;
-  return room_at(low) >= 0.0;
+  const auto missing_at = [&](double v) { return -room_at(v); };
+  summit.v = root_from_below(missing_at, v_least, -room_low, high, -room_high,
+                             {0.1 * kDistanceRounding, 1e-14, 100, 3});
+  return room_at(summit.v) >= 0.0;
 }
 
 std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& down, double s0,

@@ -45,4 +45,11 @@ inline constexpr double kHidingPeriods = 3.5;
 /// Share of a corner's turn that hides it.
 inline constexpr double kHidingShare = 0.125;
 
+/// How far before a corner lie those whose limits it may lower, at most [mm].
+/// @param feedrate  the largest one that the machine accepts [mm/s]
+/// @param period    interpolation period [s]
+constexpr double corner_reach(double feedrate, double period) noexcept {
+  return kHidingPeriods * feedrate * period;
+}
+
 }  // namespace twin::feedrate

@@ -4,46 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/root.hpp"
+
 namespace twin::feedrate {
 namespace {
 
 /// Peak v of a hump of length d without hold: ramp_distance(va, v) + ramp_distance(v, vb) = d.
 ///
-/// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap;
-/// regula falsi with bisection where it stalls (Illinois rule). Where it jumps over d, at the
-/// larger end feedrate, that is the result.
+/// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap.
+/// Where it jumps over d, at the larger end feedrate, that is the result.
 double peak_without_hold(double va, double vb, double d, double cap,
                          const RampLimits& limits) noexcept {
   const auto excess = [&](double v) {
     return ramp_distance(va, v, limits) + ramp_distance(v, vb, limits) - d;
   };
-  double low = std::max(va, vb);
-  double high = cap;
-  double f_low = excess(low);
-  double f_high = excess(high);
+  const double low = std::max(va, vb);
+  const double f_low = excess(low);
   if (f_low >= 0.0) {
     return low;
   }
-  for (int i = 0; i < 80 && high - low > 1e-13 * high; ++i) {
-    double v = (low * f_high - high * f_low) / (f_high - f_low);
-    if (i % 4 == 3 || !(v > low && v < high)) {
-      v = 0.5 * (low + high);
-    }
-    const double f = excess(v);
-    if (f > 0.0) {
-      high = v;
-      f_high = f;
-      f_low *= i % 4 == 3 ? 1.0 : 0.5;
-    } else {
-      low = v;
-      f_low = f;
-      f_high *= i % 4 == 3 ? 1.0 : 0.5;
-      if (f > -1e-12 * d) {
-        break;
-      }
-    }
-  }
-  return low;
+  return root_from_below(excess, low, f_low, cap, excess(cap), {1e-12 * d, 1e-13, 80, 4});
 }
 
 }  // namespace

@@ -14,7 +14,9 @@ constexpr double kPlateLine = 9.0;     // [texels] on the plate
 constexpr double kInsetLine = 2.2;     // [pixels]
 constexpr double kInsetMargin = 10.0;  // [pixels]
 
-Vec2 on_plate(const Vec2& p) { return {hal::drawing_column(p.x()), hal::drawing_row(p.y())}; }
+Vec2 on_plate(const Vec2& p) {
+  return {hal::mujoco::drawing_column(p.x()), hal::mujoco::drawing_row(p.y())};
+}
 
 /// The bounding box of the drawing, fitted into the inset.
 PenTrail make_inset(const Survey& survey, ColourScale scale, int frame_width, int frame_height) {
@@ -39,8 +41,8 @@ Film::Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width
       scale_(survey.largest_error_um),
       rows_(std::move(rows)),
       scene_(std::move(scene)),
-      plate_(Canvas(hal::kDrawingTexels, hal::kDrawingTexels, kPlate, kPlateLine), on_plate, scale_,
-             survey.pen_up),
+      plate_(Canvas(hal::mujoco::kDrawingTexels, hal::mujoco::kDrawingTexels, kPlate, kPlateLine),
+             on_plate, scale_, survey.pen_up),
       inset_(make_inset(survey, scale_, width, height)),
       width_(width),
       height_(height) {}
@@ -48,19 +50,10 @@ Film::Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width
 Expected<Film> Film::create(const std::filesystem::path& trace_csv,
                             const std::filesystem::path& scene_xml, const std::string& camera,
                             int width, int height, int samples) {
-  auto survey = survey_trace(trace_csv);
-  if (!survey) {
-    return tl::unexpected(std::move(survey.error()));
-  }
-  auto rows = TraceRows::open(trace_csv);
-  if (!rows) {
-    return tl::unexpected(std::move(rows.error()));
-  }
-  auto scene = TableScene::create(scene_xml, camera, width, height, samples);
-  if (!scene) {
-    return tl::unexpected(std::move(scene.error()));
-  }
-  return Film(*survey, std::move(*rows), std::move(*scene), width, height);
+  TWIN_TRY(const Survey survey, survey_trace(trace_csv));
+  TWIN_TRY(TraceRows rows, TraceRows::open(trace_csv));
+  TWIN_TRY(TableScene scene, TableScene::create(scene_xml, camera, width, height, samples));
+  return Film(survey, std::move(rows), std::move(scene), width, height);
 }
 
 Overlay Film::make_overlay(const std::string& title) {
@@ -74,11 +67,7 @@ Expected<void> Film::play_until(double t) {
       plate_.advance(shown_);
       inset_.advance(shown_);
     }
-    auto got = rows_.next(next_);
-    if (!got) {
-      return tl::unexpected(std::move(got.error()));
-    }
-    has_next_ = *got;
+    TWIN_TRY(has_next_, rows_.next(next_));
     if (std::exchange(is_first_, false) && has_next_) {
       shown_ = next_;
     }
@@ -87,9 +76,7 @@ Expected<void> Film::play_until(double t) {
 }
 
 Expected<Shot> Film::shoot(double t) {
-  if (auto played = play_until(t); !played) {
-    return tl::unexpected(std::move(played.error()));
-  }
+  TWIN_CHECK(play_until(t));
   scene_.move_to(shown_.position);
   scene_.set_drawing(plate_.canvas().image(), plate_.canvas().take_changed());
   Shot shot{Image(width_, height_),

@@ -2,22 +2,6 @@
 
 #include <GL/osmesa.h>
 
-#ifdef __SANITIZE_ADDRESS__
-// Mesa keeps what it set up for the first contexts in a list of its own until the process ends.
-extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
-  return "leak:libOSMesa.so";
-}
-#endif
-#ifdef __SANITIZE_THREAD__
-// Mesa's own threads wait for each other by means that a library built without the sanitizer does
-// not show.
-extern "C" const char* __tsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __tsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
-  return "race:libOSMesa.so";
-}
-#endif
-
 namespace twin::pictures::video {
 
 void OffscreenContext::Destroy::operator()(osmesa_context* context) const noexcept {

@@ -1,128 +1,85 @@
 #include "pictures/video/video.hpp"
 
+#include <dlfcn.h>
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <exception>
-#include <optional>
-#include <thread>
 #include <utility>
 
-#include "hal/mujoco/mujoco_errors.hpp"
-#include "pictures/video/bounded_queue.hpp"
-#include "pictures/video/film.hpp"
-#include "pictures/video/video_encoder.hpp"
+#include "core/own_folders.hpp"
+#include "pictures/video/module.hpp"
+
+#ifdef __SANITIZE_ADDRESS__
+// Mesa keeps what it set up for the first contexts in a list of its own until the process ends.
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "leak:libOSMesa.so";
+}
+#endif
+#ifdef __SANITIZE_THREAD__
+// Mesa's own threads wait for each other by means that a library built without the sanitizer does
+// not show.
+extern "C" const char* __tsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __tsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "race:libOSMesa.so";
+}
+#endif
 
 namespace twin::pictures::video {
 namespace {
 
-constexpr int kVideoSamples = 0;  // smooth edges would take the video below half of real time
-constexpr int kStillSamples = 4;
-constexpr std::size_t kFramesAhead = 3;  // between renderer and encoder
+namespace fs = std::filesystem;
 
-/// Calls a function; what MuJoCo throws becomes an Error.
-template <class Function>
-auto guarded(const Function& function) -> decltype(function()) {
-  try {
-    return function();
-  } catch (const hal::MujocoError& error) {
-    return fail(ErrorCode::kModel, std::string("MuJoCo cannot draw the scene: ") + error.what());
-  }
-}
+constexpr const char* kModuleName = "twin-video.so";
 
-/// Overlay and encoding in a thread of their own, beside the renderer.
-class EncoderThread {
- public:
-  EncoderThread(Overlay overlay, VideoEncoder encoder)
-      : overlay_(std::move(overlay)), encoder_(std::move(encoder)), thread_([this] { work(); }) {}
-  EncoderThread(const EncoderThread&) = delete;
-  EncoderThread& operator=(const EncoderThread&) = delete;
-  ~EncoderThread() { queue_.close(); }
-
-  /// @returns false when the encoder has failed; finish() says why
-  bool push(Shot shot) { return queue_.push(std::move(shot)); }
-
-  /// Waits for the last frame and closes the file.
-  Expected<void> finish() {
-    queue_.close();
-    thread_.join();
-    return result_.and_then([this] { return encoder_.finish(); });
+/// The module's function; the module stays loaded, because OpenGL drivers do not survive being
+/// unloaded.
+Expected<RenderVideo> load_module(const fs::path& file) {
+  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const function = module == nullptr ? nullptr : dlsym(module, kRenderVideoName);
+  if (function == nullptr) {
+    return tl::unexpected(Error{ErrorCode::kFile,
+                                fmt::format("the video's renderer cannot be loaded: {}", dlerror()),
+                                file.string(), 0, 0});
   }
-
- private:
-  void work() {
-    while (auto shot = queue_.pop()) {
-      overlay_.draw(shot->frame, shot->readout);
-      result_ = encoder_.push(shot->frame);
-      if (!result_) {
-        queue_.close();
-        return;
-      }
-    }
-  }
-
-  Overlay overlay_;
-  VideoEncoder encoder_;
-  BoundedQueue<Shot> queue_{kFramesAhead};
-  Expected<void> result_;  // of the thread; read after it has ended
-  std::jthread thread_;    // last: it uses all of the above
-};
-
-Expected<VideoReport> make_video(const VideoInput& input) {
-  const auto start = std::chrono::steady_clock::now();
-  auto encoder =
-      VideoEncoder::open(input.output, input.width, input.height, input.frames_per_second);
-  if (!encoder) {
-    return tl::unexpected(std::move(encoder.error()));
-  }
-  auto film = Film::create(input.trace_csv, input.scene_xml, input.camera, input.width,
-                           input.height, kVideoSamples);
-  if (!film) {
-    return tl::unexpected(std::move(film.error()));
-  }
-  const double rate = input.frames_per_second;
-  const int frames = std::max(1, static_cast<int>(std::lround(film->duration() * rate)));
-  EncoderThread thread(film->make_overlay(input.title), std::move(*encoder));
-  for (int i = 0; i < frames; ++i) {
-    auto shot = film->shoot(i == frames - 1 ? film->duration() : i / rate);
-    if (!shot) {
-      return tl::unexpected(std::move(shot.error()));
-    }
-    if (!thread.push(std::move(*shot))) {
-      break;
-    }
-    if (input.progress) {
-      input.progress(static_cast<double>(i + 1) / frames);
-    }
-  }
-  if (auto finished = thread.finish(); !finished) {
-    return tl::unexpected(std::move(finished.error()));
-  }
-  const std::chrono::duration<double> wall_time = std::chrono::steady_clock::now() - start;
-  return VideoReport{frames, frames / rate, wall_time.count()};
+  return reinterpret_cast<RenderVideo>(function);
 }
 
 }  // namespace
 
-Expected<VideoReport> write_video(const VideoInput& input) {
-  return guarded([&] { return make_video(input); });
+std::vector<fs::path> video_module_places() {
+  std::vector<fs::path> places;
+  for (const fs::path& folder : own_folders()) {
+    places.push_back(folder / "twin" / kModuleName);
+    places.push_back(folder.parent_path() / "lib" / "twin" / kModuleName);
+    places.push_back(folder.parent_path() / TWIN_INSTALL_LIBDIR / "twin" / kModuleName);
+  }
+  places.emplace_back(fs::path(TWIN_BINARY_DIR) / "lib" / "twin" / kModuleName);
+  places.emplace_back(fs::path(TWIN_INSTALL_FULL_LIBDIR) / "twin" / kModuleName);
+  return places;
 }
 
-Expected<void> write_still(const VideoInput& input, double t, const std::filesystem::path& png) {
-  return guarded([&]() -> Expected<void> {
-    auto film = Film::create(input.trace_csv, input.scene_xml, input.camera, input.width,
-                             input.height, kStillSamples);
-    if (!film) {
-      return tl::unexpected(std::move(film.error()));
-    }
-    const Overlay overlay = film->make_overlay(input.title);
-    auto shot = film->shoot(t);
-    if (!shot) {
-      return tl::unexpected(std::move(shot.error()));
-    }
-    overlay.draw(shot->frame, shot->readout);
-    return write_png(shot->frame, png);
+Expected<VideoReport> write_video_with(const fs::path& module, const VideoInput& input) {
+  TWIN_TRY(const RenderVideo render, load_module(module));
+  Expected<VideoReport> report;
+  render(&input, &report);
+  return report;
+}
+
+Expected<VideoReport> write_video(const VideoInput& input) {
+  const std::vector<fs::path> places = video_module_places();
+  const auto found = std::ranges::find_if(places, [](const fs::path& place) {
+    std::error_code ignored;
+    return fs::exists(place, ignored);
   });
+  if (found == places.end()) {
+    std::string message = "is missing; it makes the video, and was looked for at";
+    for (const fs::path& place : places) {
+      message += " " + place.string();
+    }
+    return tl::unexpected(Error{ErrorCode::kFile, std::move(message), kModuleName, 0, 0});
+  }
+  return write_video_with(*found, input);
 }
 
 }  // namespace twin::pictures::video

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -33,9 +34,20 @@ struct VideoReport {
 /// colours of the contour error, beside it feedrate, time, NC line and a magnified drawing. Frame i
 /// shows the instant i / frames_per_second, the last one the end. The trace is streamed; memory
 /// does not depend on its length. Written whole or not at all.
+///
+/// Renderer and encoder, with OpenGL and FFmpeg behind them, are in the module twin-video.so. The
+/// first call loads it: from lib/twin beside the program or the library that holds this function,
+/// then from where the project was built or installed. Thread-safe.
+///
+/// @returns a kFile error that names the places searched when there is no module
 Expected<VideoReport> write_video(const VideoInput& input);
 
-/// One frame of the video as PNG. @param t  instant [s]; beyond the end: the finished drawing
-Expected<void> write_still(const VideoInput& input, double t, const std::filesystem::path& png);
+/// Places where twin-video.so is looked for, in their order.
+std::vector<std::filesystem::path> video_module_places();
+
+/// The same as write_video() with the module in this file. @returns a kFile error with the loader's
+/// words when it cannot be loaded
+Expected<VideoReport> write_video_with(const std::filesystem::path& module,
+                                       const VideoInput& input);
 
 }  // namespace twin::pictures::video

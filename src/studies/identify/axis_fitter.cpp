@@ -257,7 +257,7 @@ void AxisFitter::estimate_hum() {
       hum.push_back(&parameter);
     }
   }
-  hal::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
+  hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
   if (direct_hum(problem_, current_)) {
     Parameter& frequency = hum[1]->candidate.parameter;
     const double range =
@@ -288,7 +288,7 @@ void AxisFitter::estimate_directly() {
     const double quantum = std::abs(current_.table.axis[problem_.axis()].encoder.mm_per_count);
     fit_.rounding_rms = quantum / std::sqrt(12.0);
   }
-  hal::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
+  hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
   if (const auto scale = direct_scale(problem_); scale && is_free("vref_scale_rpm_per_V")) {
     drive.vref_scale_rpm_per_V = *scale;
   }

@@ -30,7 +30,7 @@ constexpr std::array<Gain, 5> kGains{
 
 FittedParameter measure_count(const AxisProblem& problem, const FitOptions& options,
                               config::MachineFile& machine) {
-  hal::EncoderParams& encoder = machine.table.axis[problem.axis()].encoder;
+  hal::mujoco::EncoderParams& encoder = machine.table.axis[problem.axis()].encoder;
   FittedParameter parameter;
   parameter.key = table_section(problem.axis()) + "encoder_um_per_count";
   parameter.name = "encoder count";
@@ -57,7 +57,7 @@ std::vector<FittedParameter> measure_gains(const AxisProblem& problem, const Fit
   if (!problem.has_volts()) {
     return parameters;
   }
-  const hal::AxisParams& axis = machine.table.axis[problem.axis()];
+  const hal::mujoco::AxisParams& axis = machine.table.axis[problem.axis()];
   GainFit fit = fit_gains(problem.records(), axis.mm_per_s_per_volt(), machine.period);
   fit.gains.kp = std::max(fit.gains.kp, 0.0);
   fit.gains.kd = std::max(fit.gains.kd, 0.0);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "feedrate/limits/curvature_limit.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 #include "tests/support/random_program.hpp"
 
@@ -63,18 +63,20 @@ TEST(FeedrateRules, AllButConstantKeepTheNormalAccelerationAndTheLargestFeedrate
 TEST(FeedrateRules, RandomProgramsArePlannedWholeByEachRule) {
   std::mt19937 random(6);
   for (int i = 0; i < 60; ++i) {
-    const auto blocks = testing::random_program(random, 25);
+    const auto blocks = test::random_program(random, 25);
     for (const FeedrateRule rule :
          {FeedrateRule::kConstant, FeedrateRule::kChordError, FeedrateRule::kContactSpeed}) {
-      testing::PlanSettings settings;
+      test::PlanSettings settings;
       settings.look_ahead = i % 2 == 0 ? 20 : 200;
       settings.period = i % 3 == 0 ? 4e-3 : 1e-3;
       settings.model.feedrate_rule = rule;
+      settings.path.planner =
+          rule == FeedrateRule::kChordError ? Planner::kCertified : Planner::kPaper;
       settings.model.tool_radius = 2.0;
       settings.model.tool_side = i % 4 == 0 ? ToolSide::kLeft : ToolSide::kRight;
-      const auto planned = testing::plan(blocks, settings);
+      const auto planned = test::plan(blocks, settings);
       ASSERT_NO_FATAL_FAILURE(
-          testing::expect_whole(planned, settings.limits, rule != FeedrateRule::kConstant))
+          test::expect_whole(planned, settings.limits, rule != FeedrateRule::kConstant))
           << "program " << i << " rule " << static_cast<int>(rule);
       EXPECT_EQ(planned.fallbacks, 0) << "program " << i << " rule " << static_cast<int>(rule);
     }

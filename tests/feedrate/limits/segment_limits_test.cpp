@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "feedrate/limits/curvature_limit.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::feedrate {
 namespace segment_limits_test {
 
-using path::testing::build;
-using path::testing::polyline;
+using test::build;
+using test::polyline;
 
 const Limits kLimits;
 const PlanningModel kModel;
@@ -32,8 +32,8 @@ std::vector<path::Segment> curves() {
 }
 
 TEST(SegmentLimits, OfALineIsItsFeedrate) {
-  const auto zones = zones_of(
-      path::make_segment(path::testing::line_block({0, 0, 0}, {3, 4, 0}, 42.0), 0, {}, {}), 7.0);
+  const auto zones =
+      zones_of(path::make_segment(test::line_block({0, 0, 0}, {3, 4, 0}, 42.0), 0, {}, {}), 7.0);
   ASSERT_EQ(zones.size(), 1U);
   EXPECT_EQ(zones[0].begin, 7.0);
   EXPECT_EQ(zones[0].end, 12.0);
@@ -41,8 +41,8 @@ TEST(SegmentLimits, OfALineIsItsFeedrate) {
 }
 
 TEST(SegmentLimits, OfAnArcIsThatOfItsCurvature) {
-  const auto zones = zones_of(path::make_segment(
-      path::testing::arc_block({0, 0, 0}, {1, 0, 0}, 0.5, 2.0, true, 100.0), 0, {}, {}));
+  const auto zones = zones_of(
+      path::make_segment(test::arc_block({0, 0, 0}, {1, 0, 0}, 0.5, 2.0, true, 100.0), 0, {}, {}));
   ASSERT_EQ(zones.size(), 1U);
   EXPECT_NEAR(zones[0].limit, curvature_feedrate(2.0, 100.0, kModel, kLimits), 1e-9);
   EXPECT_LT(zones[0].limit, 35.0);

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "s_curve.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace phase_test {
 
-using testing::log_uniform;
+using test::log_uniform;
 
 TEST(Phase, HasTheDerivativesOfItsDistance) {
   const Phase phase{0.3, 2.0, 10.0, -40.0, 500.0};
@@ -101,7 +101,7 @@ void expect_whole(const Hump& hump, const RampLimits& limits, double slack) {
 TEST(Phases, OfRandomHumpsJoinAndKeepTheLimits) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
-    const RampLimits limits = testing::random_limits(random);
+    const RampLimits limits = test::random_limits(random);
     const double d = log_uniform(random, 1e-3, 300.0);
     const double v1 = random() % 4 == 0 ? 0.0 : log_uniform(random, 0.01, 300.0);
     const double most = ramp_reach(v1, d, limits);

@@ -4,13 +4,13 @@
 
 #include <limits>
 
-#include "s_curve.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace ramp_test {
 
-using testing::log_uniform;
-using testing::SCurve;
+using test::log_uniform;
+using test::SCurve;
 
 constexpr RampLimits kTable2{2450.0, 50000.0};  // A is reached from a change of 120 mm/s on
 
@@ -28,7 +28,7 @@ std::vector<Change> changes() {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
     const double v1 = i % 5 == 0 ? 0.0 : log_uniform(random, 1e-2, 300.0);
-    all.push_back({v1, v1 + log_uniform(random, 1e-2, 500.0), testing::random_limits(random)});
+    all.push_back({v1, v1 + log_uniform(random, 1e-2, 500.0), test::random_limits(random)});
   }
   return all;
 }
@@ -96,7 +96,7 @@ TEST(Ramp, ReachesNothingMoreInNoDistance) {
 TEST(Ramp, ReachOfAnyDistanceFitsIntoIt) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
-    const RampLimits limits = testing::random_limits(random);
+    const RampLimits limits = test::random_limits(random);
     const double v1 = i % 7 == 0 ? 0.0 : log_uniform(random, 1e-6, 500.0);
     const double d = log_uniform(random, 1e-9, 1e3);
     const double v2 = ramp_reach(v1, d, limits);

@@ -6,8 +6,8 @@
 
 #include "config/machine_file.hpp"
 #include "runtime/motion.hpp"
-#include "tests/runtime/faulty_machine.hpp"
-#include "tests/runtime/planned.hpp"
+#include "tests/support/faulty_machine.hpp"
+#include "tests/support/planned.hpp"
 
 // Faults put between controller and simulated table: what trips, how soon, and how far the table
 // has gone by then. In every case 0 V and servo off are written in the period of the trip, and
@@ -24,8 +24,8 @@ class Faults : public ::testing::Test {
   Faults() : file(*config::read_machine_file(TWIN_SOURCE_DIR "/mjcf/xy_table.toml")) {}
 
   MotionResult run(const std::string& program = "G01 X40 F3000\nX0\n") {
-    EXPECT_TRUE(machine.configure(kPeriod));
-    EXPECT_TRUE(machine.activate());
+    EXPECT_TRUE(checked(machine.configure(kPeriod)));
+    EXPECT_TRUE(checked(machine.activate()));
     auto planned = test::plan_text(program, file);
     SegmentQueue segments(planned.size());
     for (feedrate::PlannedSegment& segment : planned) {

@@ -20,7 +20,7 @@ class BoundedPlanTest : public ::testing::Test {
     return std::move(*result);
   }
 
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
   config::MachineFile machine;
 };
 

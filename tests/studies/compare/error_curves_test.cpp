@@ -40,7 +40,7 @@ TEST(Envelope, LargestOfAllStays) {
 /// A line at constant feedrate has no fluctuation but in the one period that is longer
 /// by 1 % of its way.
 TEST(Fluctuation, IsThatOfEachPeriod) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   std::string text = "t_s,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s\n";
   for (int i = 0; i < 100; ++i) {
     const double s = 0.05 * i + (i >= 50 ? 0.0005 : 0.0);
@@ -61,7 +61,7 @@ TEST(Fluctuation, IsThatOfEachPeriod) {
 }
 
 TEST(Fluctuation, MissingColumnIsAnError) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   EXPECT_FALSE(read_fluctuation(folder.put("trace.csv", "t_s,x_cmd_mm\n0,0\n"), 0.001));
   EXPECT_FALSE(read_contour_error(folder / "none.csv"));
 }

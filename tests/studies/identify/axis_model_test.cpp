@@ -21,9 +21,9 @@ using Rows = std::array<std::vector<AxisRow>, hal::kServoAxes>;
 
 /// The same run on the table of MuJoCo, by the period of runtime::Cycle.
 Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPoint>& points) {
-  hal::MujocoMachine table(file.table);
-  EXPECT_TRUE(table.configure(file.period));
-  EXPECT_TRUE(table.activate());
+  hal::mujoco::MujocoMachine table(file.table);
+  EXPECT_TRUE(checked(table.configure(file.period)));
+  EXPECT_TRUE(checked(table.activate()));
   std::array<motion::AxisServo, 2> servos{
       motion::AxisServo{file.servo[0], table.info().mm_per_s_per_volt[0], file.period},
       motion::AxisServo{file.servo[1], table.info().mm_per_s_per_volt[1], file.period}};

@@ -12,14 +12,14 @@ namespace twin::studies::reproduce {
 namespace acceptance_test {
 
 TEST(PublishedTables, AreReproducedByOneSetOfParameters) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   Request request;
   request.published = *published();
   request.machine_file = *config::find_machine(TWIN_SOURCE_DIR "/mjcf/xy_table.toml");
   request.repeats = 10;
   request.folder = folder.path();
   request.running.make_machine = [](const config::MachineFile& machine) {
-    return std::make_unique<hal::MujocoMachine>(machine.table);
+    return std::make_unique<hal::mujoco::MujocoMachine>(machine.table);
   };
   const auto result = reproduce(request);
   ASSERT_TRUE(result) << to_string(result.error());

@@ -32,12 +32,12 @@ class ReproductionTest : public ::testing::Test {
     request.repeats = 2;
     request.folder = folder.path();
     request.running.make_machine = [](const config::MachineFile&) {
-      return std::make_unique<hal::IdealMachine>();
+      return std::make_unique<hal::ideal::IdealMachine>();
     };
   }
 
   Request request;
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
 };
 
 TEST_F(ReproductionTest, EachRowIsAnsweredInBothWays) {
@@ -82,7 +82,7 @@ TEST_F(ReproductionTest, LandingOnCurveEndsTakesLonger) {
 TEST_F(ReproductionTest, TwoTimesGiveTheSameTables) {
   const auto first = reproduce(request);
   ASSERT_TRUE(first);
-  const twin::test::TempFolder other;
+  const test::TempFolder other;
   request.folder = other.path();
   const auto second = reproduce(request);
   ASSERT_TRUE(second);

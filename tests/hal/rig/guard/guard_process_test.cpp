@@ -11,10 +11,11 @@
 #include <functional>
 #include <thread>
 
+#include "tests/support/guard_view.hpp"
 #include "tests/support/temp_folder.hpp"
 
 // The guard as the program it is. Its card is an ordinary file in place of a sysfs resource.
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace guard_process_test {
 
 using namespace std::chrono_literals;
@@ -68,10 +69,13 @@ TEST_F(GuardProcessTest, LeavesTheCardAloneWhileAllIsWell) {
     GuardProcess guard;
     ASSERT_TRUE(guard.start(target));
     guard.arm();
-    for (int i = 0; i < 20; ++i) {
+    const test::GuardView view(guard.pid());
+    ASSERT_TRUE(view.is_there());
+    const std::uint64_t before = view.turns();
+    EXPECT_TRUE(becomes([&] {
       guard.beat();
-      std::this_thread::sleep_for(1ms);
-    }
+      return view.turns() >= before + 20;
+    }));
     EXPECT_FALSE(guard.has_acted());
     EXPECT_TRUE(guard.is_alive());
   }
@@ -141,4 +145,4 @@ TEST_F(GuardProcessTest, ProgramThatIsMissingIsSaid) {
 }
 
 }  // namespace guard_process_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard
