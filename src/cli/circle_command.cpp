@@ -12,8 +12,8 @@
 #include "runtime/run.hpp"
 #include "session/results.hpp"
 #include "studies/circular/circle_program.hpp"
+#include "studies/circular/circular_report.hpp"
 #include "studies/circular/measured_turn.hpp"
-#include "studies/circular/report.hpp"
 #include "studies/circular/servo_prediction.hpp"
 
 namespace twin::cli {
@@ -84,10 +84,10 @@ Expected<SenseRun> run_sense(const CircleTest& test, studies::circular::Sense se
   return SenseRun{std::move(*turn), result->summary.interpolator};
 }
 
-studies::circular::Figures figures_of(const studies::circular::BothPaths& paths,
-                                      const CircleTest& test,
-                                      const std::array<double, 2>& reached) {
-  studies::circular::Figures figures;
+studies::circular::Measured figures_of(const studies::circular::BothPaths& paths,
+                                       const CircleTest& test,
+                                       const std::array<double, 2>& reached) {
+  studies::circular::Measured figures;
   figures.deviations = studies::circular::evaluate(paths, test.radius);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     figures.spikes[i] = studies::circular::find_reversal_spikes(

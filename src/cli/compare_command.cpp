@@ -4,9 +4,8 @@
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
 #include "config/find_file.hpp"
+#include "studies/compare/comparison_files.hpp"
 #include "studies/compare/planner_table.hpp"
-#include "studies/compare/texts.hpp"
-#include "studies/compare/write_results.hpp"
 
 namespace twin::cli {
 namespace {
@@ -63,9 +62,9 @@ Expected<void> compare_contestants(const Options& options, studies::compare::Req
   {
     Progress progress("plots", options.quiet || options.no_plots);
     progress.show(0.0);
-    if (auto written = write_results(*comparison, workshop, !options.no_plots); !written) {
-      return written;
-    }
+    TWIN_CHECK(
+        write_results(*comparison, workshop,
+                      options.no_plots ? pictures::Drawing::kLeftOut : pictures::Drawing::kDrawn));
   }
   if (!options.quiet) {
     fmt::print("{}\n", to_text(grid_of_interpolators(*comparison)));

@@ -7,11 +7,12 @@
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
+#include "core/text_table.hpp"
 #include "core/units.hpp"
 #include "session/results.hpp"
-#include "studies/convert/comparison.hpp"
 #include "studies/convert/converter.hpp"
 #include "studies/convert/dialect.hpp"
+#include "studies/convert/program_deviation.hpp"
 
 namespace twin::cli {
 namespace {
@@ -98,16 +99,23 @@ fs::path output_of(const Options& options, const fs::path& program,
 
 void print(const Job& job, const studies::convert::Dialect& dialect,
            const studies::convert::Conversion& c, const studies::convert::Deviation& deviation) {
-  fmt::print("{} for {}\n\n", job.program.filename().string(), dialect.control());
-  fmt::print("  {:<26}{:>12}{:>12}\n", "", "before", "after");
-  fmt::print("  {:<26}{:>12}{:>12}\n", "lines of text", c.lines_before, c.lines);
   std::int64_t made = 0;
   for (const studies::convert::Group& group : c.groups) {
     made += group.made;
   }
-  fmt::print("  {:<26}{:>12}{:>12}\n", "blocks", c.blocks, made);
-  fmt::print("  {:<26}{:>12}{:>12}\n", "of them in curves", c.fitted_blocks, c.nurbs.blocks);
-  fmt::print("  {:<26}{:>12}{:>12}\n", "control points", "", c.nurbs.control_points);
+  const auto line = [](const char* name, std::string before, std::string after) {
+    return Line{
+        .row = name, .what = {}, .cells = {{std::move(before)}, {std::move(after)}}, .note = {}};
+  };
+  TextTable table;
+  table.head = {"before", "after"};
+  table.lines = {
+      line("lines of text", fmt::to_string(c.lines_before), fmt::to_string(c.lines)),
+      line("blocks", fmt::to_string(c.blocks), fmt::to_string(made)),
+      line("of them in curves", fmt::to_string(c.fitted_blocks), fmt::to_string(c.nurbs.blocks)),
+      line("control points", "", fmt::to_string(c.nurbs.control_points))};
+  fmt::print("{} for {}\n\n{}", job.program.filename().string(), dialect.control(),
+             to_text(table, {.indent = 2, .row_width = 27, .cell_width = 10}));
   if (dialect.name() == "g5.2" && c.nurbs.blocks > 0) {
     fmt::print("  curves: {} on new uniform knots, {} as {} exact pieces\n", c.nurbs.refitted,
                c.curves - c.nurbs.refitted, c.nurbs.blocks - c.nurbs.refitted);

@@ -11,9 +11,9 @@
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
 #include "session/results.hpp"
+#include "studies/identify/identification_report.hpp"
 #include "studies/identify/identify.hpp"
 #include "studies/identify/parameter.hpp"
-#include "studies/identify/report.hpp"
 
 namespace twin::cli {
 namespace {

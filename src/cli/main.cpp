@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/usage.hpp"
+#include "core/shell_quoted.hpp"
 #include "operator/terminal.hpp"
 
 namespace {
@@ -53,6 +54,8 @@ int main(int argc, char** argv) try {
   app.set_version_flag("--version", "twin " TWIN_VERSION);
   app.require_subcommand(1);
   Options options;
+  options.command =
+      twin::shell_quoted(std::span<const char* const>(argv, static_cast<std::size_t>(argc)));
   const CommandContext context{app, options, stop_requested};
   const std::array commands{add_run(context),    add_plan(context),     add_check(context),
                             add_render(context), add_compare(context),  add_reproduce(context),

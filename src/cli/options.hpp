@@ -13,6 +13,7 @@ namespace twin::cli {
 
 /// Options that the subcommands share; each takes those that mean something to it.
 struct Options {
+  std::string command;                    ///< the whole command line, as a shell takes it
   std::vector<std::string> programs;      ///< as given: paths, or names in nc_programs
   std::string machine = "xy_table.toml";  ///< path, or name in mjcf
   std::string hal = "mujoco";

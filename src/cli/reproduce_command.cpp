@@ -4,10 +4,9 @@
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
 #include "config/find_file.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
-#include "studies/reproduce/files.hpp"
-#include "studies/reproduce/table_grids.hpp"
-#include "studies/reproduce/write_results.hpp"
+#include "studies/reproduce/published_columns.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
+#include "studies/reproduce/reproduction_tables.hpp"
 
 namespace twin::cli {
 namespace {
@@ -55,9 +54,9 @@ Expected<void> reproduce_command(const Options& options, const std::atomic<bool>
   {
     Progress progress("plots", options.quiet || options.no_plots);
     progress.show(0.0);
-    if (auto written = write_results(*reproduction, *workshop, !options.no_plots); !written) {
-      return written;
-    }
+    TWIN_CHECK(
+        write_results(*reproduction, *workshop,
+                      options.no_plots ? pictures::Drawing::kLeftOut : pictures::Drawing::kDrawn));
   }
   if (!options.quiet) {
     print(*reproduction);

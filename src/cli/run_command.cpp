@@ -56,6 +56,7 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
   request.program = options.programs.front();
   request.feedrate = feedrate_of(options);
   request.folder = options.out;
+  request.command = options.command;
   request.pace = options.realtime ? session::Pace::kWallClock : session::Pace::kOwn;
   request.has_bound = options.bound;
   if (!options.overrides.empty()) {

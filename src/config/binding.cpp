@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "config/nearest_name.hpp"
 
@@ -135,6 +136,24 @@ std::string renaming_note(const Binding& binding, std::string_view section) {
 
 Expected<void> assign(const Binding& binding, const Value& value) {
   return std::visit(Assign{binding, value}, binding.target);
+}
+
+Value setting_value(const Binding& binding) {
+  struct Visitor {
+    double per_base;
+    double in_unit(double field) const {
+      return std::strtod(scaled(field, per_base).c_str(), nullptr);
+    }
+    Value operator()(const double* x) const { return in_unit(*x); }
+    Value operator()(const int* x) const { return std::int64_t{*x}; }
+    Value operator()(const bool* x) const { return *x; }
+    Value operator()(const std::string* x) const { return *x; }
+    Value operator()(const Choice& x) const { return std::string(x.names[x.get()]); }
+    Value operator()(const Vec3* x) const {
+      return std::vector<double>{in_unit(x->x()), in_unit(x->y()), in_unit(x->z())};
+    }
+  };
+  return std::visit(Visitor{binding.per_base}, binding.target);
 }
 
 std::string value_text(const Binding& binding) {

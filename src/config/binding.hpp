@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
+#include "core/setting.hpp"
 
 namespace twin::config {
 
 /// A value as a machine file or a --set writes it.
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+using Value = SettingValue;
 
 /// A field that holds one of a few named values, an enumeration.
 struct Choice {
@@ -83,7 +84,10 @@ std::string renaming_note(const Binding& binding, std::string_view section);
 /// Gives the field a value; the error has the key, the value, its unit and the range.
 Expected<void> assign(const Binding& binding, const Value& value);
 
-/// The field's value, in the key's unit, as TOML writes it.
+/// The field's value, in the key's unit.
+Value setting_value(const Binding& binding);
+
+/// The same as TOML writes it.
 std::string value_text(const Binding& binding);
 
 /// "mm/s^2" from "mm_per_s2", "1/s" from "per_s"; empty stays empty.

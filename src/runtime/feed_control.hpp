@@ -5,7 +5,7 @@
 
 #include "feedrate/profile/ramps.hpp"
 #include "motion/interpolator/interpolator.hpp"
-#include "results/metrics/override_record.hpp"
+#include "results/metrics/summary.hpp"
 #include "results/trace/sample.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"

@@ -98,7 +98,7 @@ Expected<void> Recorder::flush() {
 
 void Recorder::summarise(results::Summary& summary) {
   const auto figures = [](const results::Running& error) {
-    return results::ErrorFigures{error.max(), error.rms()};
+    return results::ErrorStats{error.max(), error.rms()};
   };
   summary.command_contour_error = figures(command_error_);
   summary.feedrate_fluctuation = {fluctuation_.shares().max(), fluctuation_.shares().rms()};
@@ -106,7 +106,7 @@ void Recorder::summarise(results::Summary& summary) {
   if (!options_.has_machine) {
     return;
   }
-  results::MachineFigures run;
+  results::MachineResults run;
   run.machining_time = last_.t;
   run.contour_error = figures(contour_error_);
   run.table_contour_error = figures(table_error_);

@@ -7,7 +7,10 @@
 #include <thread>
 #include <utility>
 
+#include "config/settings.hpp"
 #include "core/atomic_file.hpp"
+#include "core/sha256.hpp"
+#include "core/version.hpp"
 #include "hal/active_machine.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/realtime_thread.hpp"
@@ -197,12 +200,19 @@ results::Summary Run::summarise(double wall_time) {
   summary.program = request_.program.file.filename().string();
   summary.machine = machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
+  summary.planner = kPlannerNames[static_cast<std::size_t>(machine.path.planner)];
   summary.interpolator = kCurveNames[static_cast<std::size_t>(machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = machine.period;
   put_into(summary, figures, machine.path.planner == Planner::kCertified);
   summary.planned_time = outlook_.planned_time.value_or(figures.time);
   summary.overrides = feed_.records();
+  summary.notes = request_.machine.notes;
+  summary.version = version();
+  summary.command = request_.command;
+  summary.program_sha256 = request_.program.text ? sha256(*request_.program.text)
+                                                 : sha256_of_file(request_.program.file);
+  summary.settings = config::settings_of(request_.machine);
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "config/machine_file.hpp"
@@ -27,6 +28,7 @@ struct RunTask {
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured machine; null: plan only
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
+  std::string command;             ///< command line or other words of the caller, for the summary
 };
 
 /// Where the results of a run go.

@@ -82,7 +82,7 @@ class PublishedFigures : public test::LoopTest, public ::testing::WithParamInter
 };
 
 TEST_P(PublishedFigures, BlocksAreThoseOfTable1) {
-  const results::BlockFigures blocks = plan(program(paper.program)).blocks;
+  const results::BlockStats blocks = plan(program(paper.program)).blocks;
   EXPECT_EQ(blocks.short_blocks, paper.short_blocks);
   EXPECT_EQ(fmt::format("{:.3f}", blocks.length_min), paper.shortest);
   EXPECT_EQ(fmt::format("{:.3f}", blocks.length_mean), paper.mean);

@@ -5,7 +5,7 @@
 
 #include "config/machine_file.hpp"
 #include "results/metrics/limit_audit.hpp"
-#include "results/metrics/override_record.hpp"
+#include "results/metrics/summary.hpp"
 #include "results/trace/sample.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/override_schedule.hpp"

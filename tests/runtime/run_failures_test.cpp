@@ -78,7 +78,7 @@ TEST_F(RunProgram, WallClockHasItsFiguresAndLockstepHasNone) {
   const auto wall_clock = run(&machine);
   ASSERT_TRUE(wall_clock && !wall_clock->failure);
   ASSERT_TRUE(wall_clock->summary.run->realtime);
-  const results::RealTimeFigures& figures = *wall_clock->summary.run->realtime;
+  const results::RealTimeStats& figures = *wall_clock->summary.run->realtime;
   EXPECT_LE(figures.wake_up.p50, figures.wake_up.p99);
   EXPECT_LE(figures.wake_up.p99, figures.wake_up.p999);
   EXPECT_LE(figures.wake_up.p999, figures.wake_up.max);

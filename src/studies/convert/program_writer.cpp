@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/units.hpp"
-#include "studies/convert/number.hpp"
+#include "studies/convert/coordinate_text.hpp"
 
 namespace twin::studies::convert {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "gcode/programmed_curve.hpp"
 #include "path/path_builder.hpp"
-#include "studies/convert/comparison.hpp"
 #include "studies/convert/converter.hpp"
+#include "studies/convert/program_deviation.hpp"
 
 /// Conversions, and distances by brute force.
 namespace twin::test {

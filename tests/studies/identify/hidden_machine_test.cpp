@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "studies/identify/identification_report.hpp"
 #include "studies/identify/identify.hpp"
-#include "studies/identify/report.hpp"
 
 namespace twin::studies::identify {
 namespace hidden_machine_test {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/published_columns.hpp"
 #include "studies/reproduce/reproduction.hpp"
 
 namespace twin::test {
@@ -23,7 +23,7 @@ inline studies::reproduce::Reproduction scaled(double single, double mean) {
     for (const studies::reproduce::PublishedRow& row : paper->rows) {
       studies::reproduce::Answer answer;
       answer.published = row;
-      for (const double figure : row.figures) {
+      for (const double figure : row.values) {
         answer.single.push_back(single * figure);
         answer.repeats.push_back({mean * figure, 0.1 * figure});
       }
