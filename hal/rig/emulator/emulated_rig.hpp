@@ -48,6 +48,8 @@ class EmulatedRig final : public Bench {
   boards::BoardRegisters& boards() noexcept { return *boards_; }
   /// What happened. For the thread that calls advance().
   EventLog& events() noexcept { return events_; }
+  /// What happened and how it ended, a line each. For the thread that calls advance().
+  std::string report() const;
   /// Breaks something now, whatever its time. Real-time safe.
   void inject(const Fault& fault) noexcept;
   /// Simulated time since power on [s].
