@@ -37,7 +37,7 @@ rig::assemble::RigSetup setup_of(const Options& options, const config::MachineFi
   return {.table = machine.table,
           .wiring = machine.rig,
           .heartbeat_timeout = machine.safety.heartbeat_timeout,
-          .guard_program = guard_program(),
+          .guard_program = {},
           .shared_name = shared_name(options),
           .faults = {},
           .at_end = {}};
@@ -54,6 +54,9 @@ Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
                             describe(kind)));
   }
   rig::assemble::RigSetup setup = setup_of(options, machine);
+  if (kind != RigKind::kEmulated) {
+    setup.guard_program = guard_program();
+  }
   for (const std::string& text : options.faults) {
     TWIN_TRY(const rig::emulator::Fault fault, rig::emulator::parse_fault(text));
     setup.faults.push_back(fault);

@@ -16,7 +16,7 @@ using hal::rig::assemble::RigKind;
 /// Finds out which rig --rig means.
 Expected<RigKind> find_rig(const Options& options, const config::MachineFile& machine);
 
-/// What a rig is put together from, without faults and log.
+/// What a rig is put together from, without guard, faults and log.
 hal::rig::assemble::RigSetup setup_of(const Options& options, const config::MachineFile& machine);
 
 /// The rig of --rig, put together, and confirmed by the user if it is real.

@@ -8,10 +8,10 @@
 
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
+#include "hal/rig/cards.hpp"
 #include "hal/rig/emergency.hpp"
 #include "hal/rig/emulator/shared_bench.hpp"
 #include "hal/rig/guard/guard_process.hpp"
-#include "hal/rig/open_cards.hpp"
 #include "hal/rig/register_cards.hpp"
 #include "hal/rig/servopack.hpp"
 

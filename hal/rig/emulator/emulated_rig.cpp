@@ -189,7 +189,11 @@ std::string EmulatedRig::last_error() const {
 }
 
 void EmulatedRig::tell(EventKind kind, std::size_t index, std::int64_t value) noexcept {
-  events_.add({kind, index, value, time(), monotonic_ns()});
+  events_.add({.kind = kind,
+               .index = index,
+               .value = value,
+               .plant_time = time(),
+               .monotonic_ns = monotonic_ns()});
 }
 
 void EmulatedRig::strike_due_faults() noexcept {
