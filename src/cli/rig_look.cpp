@@ -1,63 +1,20 @@
 #include "cli/rig_look.hpp"
 
-#include <memory>
 #include <utility>
 
-#include "hal/rig/boards/shared_registers.hpp"
-#include "hal/rig/emulator/emulated_rig.hpp"
-#include "hal/rig/io_port/port_address.hpp"
-#include "hal/rig/register_cards.hpp"
+#include "hal/rig/assemble/look.hpp"
 
 namespace twin::cli {
-namespace {
-
-namespace rig = hal::rig;
-
-Expected<RigPorts> open_ports(RigKind kind, const Options& options,
-                              const config::MachineFile& machine) {
-  if (kind == RigKind::kProcess) {
-    return rig::boards::SharedRegisters::attach(shared_name(options),
-                                                rig::boards::SharedRole::kObserver)
-        .map([&](std::shared_ptr<rig::boards::SharedRegisters> shared) {
-          return ports_of(shared->boards(), machine.rig, shared);
-        });
-  }
-  if (kind == RigKind::kEmulated) {
-    const auto bench = std::make_shared<rig::emulator::EmulatedRig>(machine.table, machine.rig);
-    return bench->power_on(machine.period).map([&] {
-      bench->advance();
-      return ports_of(bench->boards(), machine.rig, bench);
-    });
-  }
-  TWIN_TRY(const auto found, rig::find_cards(machine.rig));
-  RigPorts ports;
-  for (const auto& [card, port] :
-       {std::pair(&found.pci1716, &ports.pci1716), std::pair(&found.pci1784, &ports.pci1784)}) {
-    TWIN_TRY(auto opened, rig::io_port::open_port(card->port));
-    *port = std::move(opened);
-  }
-  return ports;
-}
-
-rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& machine) {
-  rig::RigSettings settings = machine.rig;
-  for (rig::AxisWiring& axis : settings.axis) {
-    if (kind != RigKind::kCards && axis.vref_readback < 0) {
-      axis.vref_readback = axis.dac;
-    }
-  }
-  return settings;
-}
-
-}  // namespace
 
 Expected<RigToLookAt> open_to_look(const Options& options) {
-  TWIN_TRY(auto machine, read_machine(options));
-  TWIN_TRY(const auto kind, find_rig(options, machine));
-  return open_ports(kind, options, machine).map([&](RigPorts ports) {
-    auto settings = settings_to_look_with(kind, machine);
-    return RigToLookAt{std::move(machine), kind, std::move(settings), std::move(ports)};
-  });
+  namespace assemble = hal::rig::assemble;
+  RigToLookAt seen;
+  TWIN_TRY(seen.machine, read_machine(options));
+  TWIN_TRY(seen.kind, find_rig(options, seen.machine));
+  seen.settings = assemble::wiring_to_look_with(seen.kind, seen.machine.rig);
+  TWIN_TRY(seen.ports,
+           assemble::open_to_look(seen.kind, setup_of(options, seen.machine), seen.machine.period));
+  return seen;
 }
 
 }  // namespace twin::cli

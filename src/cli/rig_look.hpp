@@ -2,11 +2,13 @@
 
 #include "cli/options.hpp"
 #include "cli/rig_machines.hpp"
-#include "cli/rig_ports.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "hal/rig/assemble/rig_ports.hpp"
 
 namespace twin::cli {
+
+using hal::rig::assemble::RigPorts;
 
 /// A rig that is only looked at.
 struct RigToLookAt {

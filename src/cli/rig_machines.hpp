@@ -6,26 +6,18 @@
 #include "cli/options.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/rig/rig_machine.hpp"
+#include "hal/rig/assemble/make_rig.hpp"
 
-/// The rig behind --hal rig: which one it is, and how it is put together.
+/// The rig behind --hal rig, from the options of the command line.
 namespace twin::cli {
 
-/// What stands behind the registers.
-enum class RigKind {
-  kCards,     ///< the real cards: metal moves
-  kProcess,   ///< emulated boards of another process, `twin rig emulate`, on the wall clock
-  kEmulated,  ///< emulated boards in this process, in simulated time
-};
+using hal::rig::assemble::RigKind;
 
-/// Finds out which rig --rig means. "auto" is the real cards or an emulator's process, whichever is
-/// there; that both are there is an error, and that neither is one that names what was looked for.
+/// Finds out which rig --rig means.
 Expected<RigKind> find_rig(const Options& options, const config::MachineFile& machine);
 
-/// Puts a rig together: cards, what is behind them, and, where the outputs outlive this process,
-/// the guard that watches it. Nothing is opened before configure().
-Expected<std::unique_ptr<hal::rig::RigMachine>> make_rig(RigKind kind, const Options& options,
-                                                         const config::MachineFile& machine);
+/// What a rig is put together from, without guard, faults and log.
+hal::rig::assemble::RigSetup setup_of(const Options& options, const config::MachineFile& machine);
 
 /// The rig of --rig, put together, and confirmed by the user if it is real.
 ///
@@ -36,8 +28,5 @@ Expected<std::unique_ptr<hal::rig::RigMachine>> open_rig(const Options& options,
 
 /// Name and scales of the rig of a machine file.
 hal::MachineInfo machine_info(const config::MachineFile& machine);
-
-/// "real cards", "emulated boards of process 1234 (simulated)".
-std::string describe(RigKind kind);
 
 }  // namespace twin::cli
