@@ -19,7 +19,7 @@ geometry::Curve wave_curve() {
   }
   geometry::Fitter fitter;
   geometry::Curve curve;
-  EXPECT_TRUE(fitter.fit(points, {}, {}, curve));
+  EXPECT_EQ(fitter.fit(points, {}, {}, curve), geometry::FitResult::kFitted);
   return curve;
 }
 
