@@ -1,8 +1,8 @@
 #pragma once
 
 /// Numerical tolerances of the planners, each with what it bounds. None of them is a limit of the
-/// machine, and none moves a result by more than rounding: a plan of the same path drawn ten times
-/// larger or smaller, with limits to match, takes the same time (tolerances_test.cpp).
+/// machine, and none moves a result by more than rounding: a plan of the same path drawn eight
+/// times larger or smaller, with limits to match, takes the same time (tolerances_test.cpp).
 namespace twin::feedrate {
 
 /// Two places of the path closer than this are one place [mm].
