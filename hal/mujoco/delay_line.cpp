@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 constexpr double kWholeSteps = 1e-9;  // how far from whole a count of steps may be [steps]
@@ -46,4 +46,4 @@ void DelayLine::clear() noexcept {
   last_ = 0.0;
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// A value that arrives a fixed time late; 0 until the first has arrived.
 ///
@@ -29,4 +29,4 @@ class DelayLine {
   double last_ = 0.0;  // v_{k-n-1}
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

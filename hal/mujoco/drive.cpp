@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 constexpr double kRadPerSPerRpm = 2.0 * std::numbers::pi / 60.0;
@@ -78,4 +78,4 @@ double Drive::step(double volts, double speed, double time, const DriveSignals& 
   return motor_.torque_constant * current_;
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

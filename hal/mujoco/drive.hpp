@@ -2,7 +2,7 @@
 
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// What a drive is told by its terminals, besides V-REF.
 struct DriveSignals {
@@ -61,4 +61,4 @@ class Drive {
   bool has_alarm_ = false;
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -5,7 +5,7 @@
 
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// Incremental encoder behind a counter: whole counts since zero().
 ///
@@ -30,4 +30,4 @@ class Encoder {
   double origin_ = 0.0;
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

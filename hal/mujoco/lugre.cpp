@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 constexpr double kSmallDecay = 1e-6;  // lambda h below which the exponential is its first term
@@ -58,4 +58,4 @@ double Lugre::step(double velocity) noexcept {
          params_.viscous * velocity;
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

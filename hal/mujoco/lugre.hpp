@@ -2,7 +2,7 @@
 
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// Friction of one slide: the LuGre bristle with a purely elastic zone.
 ///
@@ -50,4 +50,4 @@ class Lugre {
   double deflection_ = 0.0;  // z [mm]
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace {
 
 // Rubber end stops behind the limit switches: only so that a runaway ends somewhere.
@@ -51,4 +51,4 @@ void TableAxis::reset_drive() noexcept {
   drive_.reset();
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -5,7 +5,7 @@
 #include "hal/mujoco/lugre.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// Where one axis is at the start of a physics step.
 struct AxisMotion {
@@ -65,4 +65,4 @@ class TableAxis {
   bool is_forced_negative_ = false;
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

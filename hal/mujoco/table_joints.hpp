@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// Where one slide sits in the model's vectors, and its motor if the screw gives.
 struct SlideJoint {
@@ -42,4 +42,4 @@ Expected<TableJoints> find_table_joints(const mjModel& model);
 Expected<void> apply_params(mjModel& model, mjData& data, const TableJoints& joints,
                             const TableParams& params);
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -8,7 +8,7 @@
 
 /// Every number of the simulated table, with units. The values are those of mjcf/xy_table.toml;
 /// where each comes from is said in mjcf/README.md.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// Servo motor on the ball screw (SGMAH-02A).
 struct MotorParams {
@@ -106,4 +106,4 @@ struct TableParams {
   std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -4,11 +4,12 @@
 
 #include "core/error.hpp"
 #include "hal/mujoco/model.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "hal/mujoco/table_joints.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// The masses of the table in MuJoCo: the one place where mm meet m.
 ///
@@ -40,6 +41,7 @@ class TablePhysics {
  private:
   TablePhysics(ModelPtr model, DataPtr data, const TableJoints& joints, const TableParams& params);
 
+  const MujocoLibrary& mujoco_ = MujocoLibrary::loaded();
   ModelPtr model_;
   DataPtr data_;
   TableJoints joints_;
@@ -47,4 +49,4 @@ class TablePhysics {
   double pen_omega_;  // bandwidth of the pen slide [rad/s]
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -10,7 +10,7 @@
 #include "hal/mujoco/table_axis.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 class TablePhysics;
 
@@ -79,4 +79,4 @@ class TablePlant {
   std::array<char, 200> mujoco_words_{};  // kept without allocating
 };
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

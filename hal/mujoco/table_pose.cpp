@@ -3,17 +3,14 @@
 #include "core/units.hpp"
 #include "hal/mujoco/model.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 Expected<TablePose> find_table_pose(const mjModel& model) {
   TablePose pose;
   for (const auto& [name, address] :
        {std::pair{kJointX, &pose.x}, std::pair{kJointY, &pose.y}, std::pair{kJointZ, &pose.z}}) {
-    const Expected<int> id = find_id(model, mjOBJ_JOINT, "joint", name);
-    if (!id) {
-      return tl::unexpected<Error>(id.error());
-    }
-    *address = model.jnt_qposadr[*id];
+    TWIN_TRY(const int id, find_id(model, mjOBJ_JOINT, "joint", name));
+    *address = model.jnt_qposadr[id];
   }
   return pose;
 }
@@ -24,4 +21,4 @@ void set_table_pose(const TablePose& pose, mjData& data, double x, double y, dou
   data.qpos[pose.z] = units::m_from_mm(z);
 }
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 
 /// Names and places of the table's MJCF model, for whoever draws it. Conventions: mjcf/README.md.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 inline constexpr const char* kJointX =
     "x";  ///< slide [m], positive: the pen goes to +x on the plate
@@ -44,4 +44,4 @@ Expected<TablePose> find_table_pose(const mjModel& model);
 /// Puts the table at a machine position [mm]; call mj_kinematics or mj_forward afterwards.
 void set_table_pose(const TablePose& pose, mjData& data, double x, double y, double z) noexcept;
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

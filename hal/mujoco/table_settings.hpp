@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "hal/mujoco/table_params.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 
 /// One number of the machine file: its key, where it goes, and what it may be.
 struct Setting {
@@ -34,4 +34,4 @@ Expected<void> validate(const TableParams& params);
 /// Physics steps in a period: the fewest that are no longer than the physics step asked for.
 int steps_per_period(double period, double physics_step) noexcept;
 
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -42,7 +42,7 @@ double full_scale(Pci1716::InputRange range) noexcept {
 
 }  // namespace
 
-void make_safe(IoPort& pci1716, std::uint16_t digital) noexcept {
+void make_safe(io_port::IoPort& pci1716, std::uint16_t digital) noexcept {
   pci1716.write16(dac_register(0), kZeroVolts);
   pci1716.write16(dac_register(1), kZeroVolts);
   pci1716.write16(kDacRange, kBothAt10V);
@@ -51,7 +51,7 @@ void make_safe(IoPort& pci1716, std::uint16_t digital) noexcept {
   pci1716.write16(kDigitalIo, digital);
 }
 
-Pci1716::Pci1716(IoPort& port, std::uint16_t safe_digital) noexcept
+Pci1716::Pci1716(io_port::IoPort& port, std::uint16_t safe_digital) noexcept
     : port_(port), safe_digital_(safe_digital), digital_out_(safe_digital) {}
 
 void Pci1716::open() noexcept {

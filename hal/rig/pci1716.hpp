@@ -20,7 +20,7 @@ inline constexpr std::uint16_t kZeroVolts = 0x8000;
 /// outputs. So no write leaves a code behind that another range turns into a motion: code 0, which
 /// is 0 V in a unipolar range, is -10 V in ours. Driver, guard and signal handlers share this
 /// function: it is as safe in a signal handler as the port is, and may be called at any time.
-void make_safe(IoPort& pci1716, std::uint16_t digital) noexcept;
+void make_safe(io_port::IoPort& pci1716, std::uint16_t digital) noexcept;
 
 /// Advantech PCI-1716: two 16 bit D/A converters, 16 digital inputs and outputs, A/D converter.
 ///
@@ -35,7 +35,7 @@ class Pci1716 {
 
   /// Touches nothing. The port must outlive this.
   /// @param safe_digital  digital outputs with every drive off
-  Pci1716(IoPort& port, std::uint16_t safe_digital) noexcept;
+  Pci1716(io_port::IoPort& port, std::uint16_t safe_digital) noexcept;
 
   /// Drives off, then 0 V at +-10 V. Real-time safe.
   void open() noexcept;
@@ -65,7 +65,7 @@ class Pci1716 {
   bool is_gone() noexcept;
 
  private:
-  IoPort& port_;
+  io_port::IoPort& port_;
   Dac dac_{16};
   std::uint16_t safe_digital_;
   std::atomic<std::uint16_t> digital_out_;  // what the write-only register holds

@@ -22,7 +22,7 @@ constexpr std::uint32_t counter_register(std::size_t counter) {
 
 }  // namespace
 
-Pci1784::Pci1784(IoPort& port, const RigSettings& settings) noexcept
+Pci1784::Pci1784(io_port::IoPort& port, const RigSettings& settings) noexcept
     : port_(port),
       mode_(static_cast<std::uint32_t>(settings.counter_mode)),
       clock_control_(static_cast<std::uint32_t>(settings.clock_control)),

@@ -22,7 +22,7 @@ namespace twin::hal::rig {
 class Pci1784 {
  public:
   /// Touches nothing. The port must outlive this.
-  Pci1784(IoPort& port, const RigSettings& settings) noexcept;
+  Pci1784(io_port::IoPort& port, const RigSettings& settings) noexcept;
 
   /// Modes, interrupts off, clock, reset where wanted; the present counts become 0. Real-time safe.
   void open() noexcept;
@@ -43,7 +43,7 @@ class Pci1784 {
   using Raw = std::array<std::uint32_t, kCounters>;
   Raw latch() noexcept;
 
-  IoPort& port_;
+  io_port::IoPort& port_;
   std::uint32_t mode_;
   std::uint32_t clock_control_;
   std::uint32_t reset_offset_;  // 0: no reset

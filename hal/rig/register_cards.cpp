@@ -23,15 +23,15 @@ std::string port_text(std::string_view card, int number) {
 
 }  // namespace
 
-RegisterCards::RegisterCards(std::unique_ptr<IoPort> pci1716, std::unique_ptr<IoPort> pci1784,
-                             const RigSettings& settings)
+RegisterCards::RegisterCards(std::unique_ptr<io_port::IoPort> pci1716,
+                             std::unique_ptr<io_port::IoPort> pci1784, const RigSettings& settings)
     : port_1716_(std::move(pci1716)),
       port_1784_(std::move(pci1784)),
       analogue_(*port_1716_, safe_digital(settings)),
       counters_(*port_1784_, settings) {}
 
-Expected<std::unique_ptr<Cards>> RegisterCards::open(std::unique_ptr<IoPort> pci1716,
-                                                     std::unique_ptr<IoPort> pci1784,
+Expected<std::unique_ptr<Cards>> RegisterCards::open(std::unique_ptr<io_port::IoPort> pci1716,
+                                                     std::unique_ptr<io_port::IoPort> pci1784,
                                                      const RigSettings& settings) {
   std::unique_ptr<RegisterCards> cards(
       new RegisterCards(std::move(pci1716), std::move(pci1784), settings));
@@ -91,43 +91,30 @@ std::string RegisterCards::last_error() const {
     case Fault::kNone:
       return {};
     case Fault::kPci1716Gone:
-      return gone_text(kPci1716.name);
+      return gone_text(io_port::kPci1716.name);
     case Fault::kPci1784Gone:
-      return gone_text(kPci1784.name);
+      return gone_text(io_port::kPci1784.name);
     case Fault::kPci1716Port:
-      return port_text(kPci1716.name, port_1716_->error());
+      return port_text(io_port::kPci1716.name, port_1716_->error());
     case Fault::kPci1784Port:
-      return port_text(kPci1784.name, port_1784_->error());
+      return port_text(io_port::kPci1784.name, port_1784_->error());
   }
   return {};
 }
 
 Expected<CardsFound> find_cards(const RigSettings& settings) {
-  auto analogue = find_card(kPci1716, settings.pci1716_board_id, settings.access, settings.sysfs);
-  if (!analogue) {
-    return tl::unexpected(analogue.error());
-  }
-  auto counters = find_card(kPci1784, settings.pci1784_board_id, settings.access, settings.sysfs);
-  if (!counters) {
-    return tl::unexpected(counters.error());
-  }
-  return CardsFound{std::move(*analogue), std::move(*counters)};
+  TWIN_TRY(auto analogue, io_port::find_card(io_port::kPci1716, settings.pci1716_board_id,
+                                             settings.access, settings.sysfs));
+  TWIN_TRY(auto counters, io_port::find_card(io_port::kPci1784, settings.pci1784_board_id,
+                                             settings.access, settings.sysfs));
+  return CardsFound{std::move(analogue), std::move(counters)};
 }
 
 Expected<std::unique_ptr<Cards>> open_register_cards(const RigSettings& settings) {
-  const Expected<CardsFound> found = find_cards(settings);
-  if (!found) {
-    return tl::unexpected(found.error());
-  }
-  auto analogue = open_port(found->pci1716.port);
-  if (!analogue) {
-    return tl::unexpected(analogue.error());
-  }
-  auto counters = open_port(found->pci1784.port);
-  if (!counters) {
-    return tl::unexpected(counters.error());
-  }
-  return RegisterCards::open(std::move(*analogue), std::move(*counters), settings);
+  TWIN_TRY(const CardsFound found, find_cards(settings));
+  TWIN_TRY(auto analogue, io_port::open_port(found.pci1716.port));
+  TWIN_TRY(auto counters, io_port::open_port(found.pci1784.port));
+  return RegisterCards::open(std::move(analogue), std::move(counters), settings);
 }
 
 }  // namespace twin::hal::rig

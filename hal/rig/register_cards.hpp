@@ -16,8 +16,8 @@ class RegisterCards final : public Cards {
   /// Opens both cards: drives off and 0 V, then the counters.
   ///
   /// @returns a kMachine error where a card does not answer; what answered is left safe
-  static Expected<std::unique_ptr<Cards>> open(std::unique_ptr<IoPort> pci1716,
-                                               std::unique_ptr<IoPort> pci1784,
+  static Expected<std::unique_ptr<Cards>> open(std::unique_ptr<io_port::IoPort> pci1716,
+                                               std::unique_ptr<io_port::IoPort> pci1784,
                                                const RigSettings& settings);
   /// 0 V and drives off.
   ~RegisterCards() override;
@@ -33,13 +33,13 @@ class RegisterCards final : public Cards {
  private:
   enum class Fault { kNone, kPci1716Gone, kPci1784Gone, kPci1716Port, kPci1784Port };
 
-  RegisterCards(std::unique_ptr<IoPort> pci1716, std::unique_ptr<IoPort> pci1784,
+  RegisterCards(std::unique_ptr<io_port::IoPort> pci1716, std::unique_ptr<io_port::IoPort> pci1784,
                 const RigSettings& settings);
   Status check_ports() noexcept;
   Status fail_with(Fault fault) noexcept;
 
-  std::unique_ptr<IoPort> port_1716_;
-  std::unique_ptr<IoPort> port_1784_;
+  std::unique_ptr<io_port::IoPort> port_1716_;
+  std::unique_ptr<io_port::IoPort> port_1784_;
   Pci1716 analogue_;
   Pci1784 counters_;
   Fault fault_ = Fault::kNone;
@@ -47,8 +47,8 @@ class RegisterCards final : public Cards {
 
 /// Where both cards of the rig are.
 struct CardsFound {
-  CardSeen pci1716;
-  CardSeen pci1784;
+  io_port::CardSeen pci1716;
+  io_port::CardSeen pci1784;
 };
 
 /// Looks for both cards as the settings describe them; the error names the first that is missing.

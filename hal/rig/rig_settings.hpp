@@ -61,7 +61,7 @@ inline AxisWiring default_y_wiring() {
 /// The whole rig.
 struct RigSettings {
   Driver driver = Driver::kRegisters;
-  Access access = Access::kSysfs;
+  io_port::Access access = io_port::Access::kSysfs;
   std::string sysfs = "/sys";                    ///< root under which PCI cards are looked for
   std::string daqnavi_library = "libbiodaq.so";  ///< name or path
   int pci1716_board_id = 0;                      ///< its switch, 0 to 15

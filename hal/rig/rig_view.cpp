@@ -5,7 +5,8 @@
 
 namespace twin::hal::rig {
 
-RigView look_at_rig(IoPort& pci1716, IoPort& pci1784, const RigSettings& settings) {
+RigView look_at_rig(io_port::IoPort& pci1716, io_port::IoPort& pci1784,
+                    const RigSettings& settings) {
   Pci1716 analogue(pci1716, safe_digital(settings));
   Pci1784 counters(pci1784, settings);
   RigView view;

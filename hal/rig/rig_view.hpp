@@ -24,6 +24,7 @@ struct RigView {
 /// Looks at both cards beside whatever drives them: latches the counters, converts the analogue
 /// inputs that read V-REF back, writes no output and no mode. The converters' own registers cannot
 /// be read. Not real-time safe.
-RigView look_at_rig(IoPort& pci1716, IoPort& pci1784, const RigSettings& settings);
+RigView look_at_rig(io_port::IoPort& pci1716, io_port::IoPort& pci1784,
+                    const RigSettings& settings);
 
 }  // namespace twin::hal::rig

@@ -6,11 +6,11 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
-#include "cli/results.hpp"
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
 #include "pictures/plot/circular_figure.hpp"
 #include "runtime/run.hpp"
+#include "session/results.hpp"
 #include "studies/circular/circle_program.hpp"
 #include "studies/circular/measured_turn.hpp"
 #include "studies/circular/report.hpp"
@@ -57,8 +57,8 @@ Expected<SenseRun> run_sense(const CircleTest& test, studies::circular::Sense se
   request.is_wall_clock = (*hal)->info().keeps_own_time;
   request.directory = test.folder / name;
   request.stop = &stop;
-  if (auto written = write_whole_file(
-          request.program, studies::circular::circle_program(test.radius, test.feedrate, sense));
+  if (auto written = write_whole_file(request.program.file, studies::circular::circle_program(
+                                                                test.radius, test.feedrate, sense));
       !written) {
     return tl::unexpected(written.error());
   }
@@ -70,13 +70,13 @@ Expected<SenseRun> run_sense(const CircleTest& test, studies::circular::Sense se
   if (!result) {
     return tl::unexpected(result.error());
   }
-  if (auto written = write_summary(request.directory, *result); !written) {
+  if (auto written = session::write_summary(request.directory, *result); !written) {
     return tl::unexpected(written.error());
   }
   if (result->failure) {
     return tl::unexpected(*result->failure);
   }
-  remove_stale_results(request.directory);
+  session::remove_stale_results(request.directory);
   auto turn = studies::circular::read_measured_turn(request.directory / "trace.csv");
   if (!turn) {
     return tl::unexpected(turn.error());

@@ -4,11 +4,11 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
-#include "cli/results.hpp"
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
+#include "session/results.hpp"
 #include "studies/convert/comparison.hpp"
 #include "studies/convert/converter.hpp"
 #include "studies/convert/dialect.hpp"
@@ -130,7 +130,7 @@ Expected<void> convert_command(const Options& options) {
   }
   const auto dialect = studies::convert::make_dialect(options.dialect);
   const fs::path file = output_of(options, *program, *dialect);
-  if (auto prepared = prepare_output_file(file); !prepared) {
+  if (auto prepared = session::prepare_output_file(file); !prepared) {
     return prepared;
   }
   std::error_code ignored;

@@ -8,9 +8,9 @@
 #include "cli/identify_options.hpp"
 #include "cli/identify_tables.hpp"
 #include "cli/progress.hpp"
-#include "cli/results.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
+#include "session/results.hpp"
 #include "studies/identify/identify.hpp"
 #include "studies/identify/parameter.hpp"
 #include "studies/identify/report.hpp"
@@ -139,7 +139,7 @@ Expected<void> identify_command(const Options& options, const IdentifyOptions& i
   if (!machine) {
     return tl::unexpected(machine.error());
   }
-  if (auto prepared = prepare_output_file(output_of(options)); !prepared) {
+  if (auto prepared = session::prepare_output_file(output_of(options)); !prepared) {
     return prepared;
   }
   if (!identify.tables) {

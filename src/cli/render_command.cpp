@@ -1,57 +1,29 @@
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "cli/commands.hpp"
-#include "cli/results.hpp"
+#include "cli/progress.hpp"
 #include "config/find_file.hpp"
+#include "session/pictures.hpp"
 
 namespace twin::cli {
 namespace {
 
-/// What summary.json says of the trace beside it.
-struct TraceOrigin {
-  std::string program;
-  bool has_machine = true;
-};
-
-Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
-  const auto file = folder / "summary.json";
-  std::ifstream in(file);
-  if (!in) {
-    return tl::unexpected(Error{ErrorCode::kFile, "cannot be read; is this the folder of a run?",
-                                file.string(), 0, 0});
-  }
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("program") || !json["program"].is_string()) {
-    return tl::unexpected(
-        Error{ErrorCode::kFile, "is not the summary of a run", file.string(), 0, 0});
-  }
-  return TraceOrigin{json["program"].get<std::string>(), json.contains("machining_time_s")};
-}
-
 Expected<void> render_command(const Options& options) {
-  auto origin = read_origin(options.out);
-  if (!origin) {
-    return tl::unexpected(origin.error());
-  }
-  if (options.video && !origin->has_machine) {
+  TWIN_TRY(const session::TraceOrigin origin, session::read_origin(options.out));
+  if (options.video && origin.kind == session::TraceKind::kPlan) {
     return fail(ErrorCode::kUsage,
                 "--video needs the trace of a run; this one is of a plan, without a machine");
   }
-  auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
-  }
+  TWIN_TRY(const config::MachineFile machine, read_machine(options));
   if (!options.no_plots) {
-    const auto program = config::find_program(origin->program);
-    if (auto drawn = write_plots(options.out, program.value_or(std::filesystem::path()),
-                                 origin->program, !origin->has_machine, options.quiet);
-        !drawn) {
-      return drawn;
-    }
+    Progress progress("plots", options.quiet);
+    progress.show(0.0);
+    const auto program = config::find_program(origin.program);
+    TWIN_CHECK(session::draw_figures(
+        {options.out, program.value_or(std::filesystem::path()), origin.program, origin.kind}));
   }
   if (options.video) {
-    return write_video(options.out, machine->table.model, origin->program, options);
+    Progress progress("video", options.quiet);
+    TWIN_CHECK(session::render_video(
+        {options.out, machine.table.model, origin.program, options.camera, progress.callback()}));
   }
   return {};
 }

@@ -20,11 +20,11 @@ Expected<void> emulate(const Options& options, const std::atomic<bool>& stop) {
   if (!machine) {
     return tl::unexpected(machine.error());
   }
-  rig::ServeSettings settings;
+  rig::emulator::ServeSettings settings;
   settings.name = shared_name(options);
   settings.duration = options.for_s;
   for (const std::string& text : options.faults) {
-    const auto fault = rig::parse_fault(text);
+    const auto fault = rig::emulator::parse_fault(text);
     if (!fault) {
       return tl::unexpected(fault.error());
     }
@@ -43,7 +43,7 @@ Expected<void> emulate(const Options& options, const std::atomic<bool>& stop) {
   for (const std::string& note : realtime.notes()) {
     tell("note: " + note);
   }
-  const auto result = rig::serve(machine->table, machine->rig, settings, stop, tell);
+  const auto result = rig::emulator::serve(machine->table, machine->rig, settings, stop, tell);
   if (!result) {
     return tl::unexpected(result.error());
   }

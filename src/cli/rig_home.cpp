@@ -5,8 +5,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/rig_machines.hpp"
-#include "cli/rig_motion.hpp"
 #include "hal/kept_machine.hpp"
+#include "session/axis_move.hpp"
 #include "studies/commissioning/homing.hpp"
 
 namespace twin::cli {
@@ -53,17 +53,18 @@ class Homing {
   }
 
   Expected<HomingStop> make(const HomingMove& wanted) {
-    AxisMove move;
+    session::AxisMove move;
     move.name = "home";
-    move.axis = "xy"[wanted.axis];
+    move.axis = wanted.axis;
+    move.folder = options_.out;
     move.distance = wanted.distance;
     move.feedrate = wanted.feedrate;
     move.until = watch_for(wanted);
     if (!options_.quiet) {
-      fmt::print("axis {}: {}\n", move.axis, description(wanted));
+      fmt::print("axis {}: {}\n", "xy"[move.axis], description(wanted));
       std::fflush(stdout);
     }
-    const auto result = make_axis_move(move, options_, machine_, rig_, stop_);
+    const auto result = session::make_axis_move(move, machine_, rig_, stop_);
     if (!result) {
       return tl::unexpected(result.error());
     }
@@ -112,7 +113,7 @@ Expected<void> home(const Options& options, const std::atomic<bool>& stop) {
     return tl::unexpected(rig.error());
   }
   const hal::Axis axis = options.axis == "x" ? hal::kX : hal::kY;
-  const hal::AxisParams& table = machine->table.axis[axis];
+  const hal::mujoco::AxisParams& table = machine->table.axis[axis];
   hal::KeptMachine kept(**rig);
   Homing homing(options, *machine, kept, stop);
   const auto homed = studies::commissioning::home_axis(

@@ -2,8 +2,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/rig_machines.hpp"
-#include "cli/rig_motion.hpp"
 #include "core/units.hpp"
+#include "session/axis_move.hpp"
+#include "session/results.hpp"
 
 namespace twin::cli {
 namespace {
@@ -16,14 +17,15 @@ Expected<void> jog(const Options& options, const std::atomic<bool>& stop) {
   if (options.distance_mm == 0.0) {
     return fail(ErrorCode::kUsage, "--distance-mm 0 is no move");
   }
-  const AxisMove move{"jog", options.axis.front(), options.distance_mm, *feedrate_of(options), {}};
+  const session::AxisMove move{"jog", options.axis == "x" ? hal::kX : hal::kY, options.distance_mm,
+                               *feedrate_of(options), options.out};
   const auto rig =
       open_rig(options, *machine,
-               fmt::format("rig jog --axis {} --distance-mm {:g}", move.axis, move.distance));
+               fmt::format("rig jog --axis {} --distance-mm {:g}", options.axis, move.distance));
   if (!rig) {
     return tl::unexpected(rig.error());
   }
-  const auto result = make_axis_move(move, options, *machine, **rig, stop);
+  const auto result = session::make_axis_move(move, *machine, **rig, stop);
   if (!result) {
     return tl::unexpected(result.error());
   }
@@ -31,12 +33,12 @@ Expected<void> jog(const Options& options, const std::atomic<bool>& stop) {
     return tl::unexpected(*result->failure);
   }
   if (!options.quiet) {
-    const auto& error = result->summary.run->tracking_error[move.axis == 'x' ? 0 : 1];
+    const auto& error = result->summary.run->tracking_error[move.axis];
     fmt::print(
         "axis {} jogged by {:g} mm{}: tracking error max {:.1f}, RMS {:.1f} um; trace in {}\n",
-        move.axis, move.distance, (*rig)->info().simulated ? " (simulated)" : "",
+        options.axis, move.distance, (*rig)->info().simulated ? " (simulated)" : "",
         units::um_from_mm(error.max), units::um_from_mm(error.rms),
-        result_folder(options, "rig_jog").string());
+        session::result_folder(options.out, "rig_jog").string());
   }
   return {};
 }

@@ -16,30 +16,25 @@ namespace rig = hal::rig;
 Expected<RigPorts> open_ports(RigKind kind, const Options& options,
                               const config::MachineFile& machine) {
   if (kind == RigKind::kProcess) {
-    return rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kObserver)
-        .map([&](std::shared_ptr<rig::SharedRegisters> shared) {
+    return rig::boards::SharedRegisters::attach(shared_name(options),
+                                                rig::boards::SharedRole::kObserver)
+        .map([&](std::shared_ptr<rig::boards::SharedRegisters> shared) {
           return ports_of(shared->boards(), machine.rig, shared);
         });
   }
   if (kind == RigKind::kEmulated) {
-    const auto bench = std::make_shared<rig::EmulatedRig>(machine.table, machine.rig);
+    const auto bench = std::make_shared<rig::emulator::EmulatedRig>(machine.table, machine.rig);
     return bench->power_on(machine.period).map([&] {
       bench->advance();
       return ports_of(bench->boards(), machine.rig, bench);
     });
   }
-  const auto found = rig::find_cards(machine.rig);
-  if (!found) {
-    return tl::unexpected(found.error());
-  }
+  TWIN_TRY(const auto found, rig::find_cards(machine.rig));
   RigPorts ports;
   for (const auto& [card, port] :
-       {std::pair(&found->pci1716, &ports.pci1716), std::pair(&found->pci1784, &ports.pci1784)}) {
-    auto opened = rig::open_port(card->port);
-    if (!opened) {
-      return tl::unexpected(std::move(opened.error()));
-    }
-    *port = std::move(*opened);
+       {std::pair(&found.pci1716, &ports.pci1716), std::pair(&found.pci1784, &ports.pci1784)}) {
+    TWIN_TRY(auto opened, rig::io_port::open_port(card->port));
+    *port = std::move(opened);
   }
   return ports;
 }
@@ -57,17 +52,11 @@ rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& 
 }  // namespace
 
 Expected<RigToLookAt> open_to_look(const Options& options) {
-  auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
-  }
-  const auto kind = find_rig(options, *machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  return open_ports(*kind, options, *machine).map([&](RigPorts ports) {
-    auto settings = settings_to_look_with(*kind, *machine);
-    return RigToLookAt{std::move(*machine), *kind, std::move(settings), std::move(ports)};
+  TWIN_TRY(auto machine, read_machine(options));
+  TWIN_TRY(const auto kind, find_rig(options, machine));
+  return open_ports(kind, options, machine).map([&](RigPorts ports) {
+    auto settings = settings_to_look_with(kind, machine);
+    return RigToLookAt{std::move(machine), kind, std::move(settings), std::move(ports)};
   });
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace rig = hal::rig;
 
-rig::TableScales scales_of(const hal::TableParams& table) {
+rig::TableScales scales_of(const hal::mujoco::TableParams& table) {
   rig::TableScales scales;
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     scales.mm_per_count[axis] = table.axis[axis].encoder.mm_per_count;
@@ -35,23 +35,23 @@ rig::TableScales scales_of(const hal::TableParams& table) {
   return scales;
 }
 
-Expected<std::unique_ptr<rig::Cards>> open_boards(rig::BoardRegisters& boards,
+Expected<std::unique_ptr<rig::Cards>> open_boards(rig::boards::BoardRegisters& boards,
                                                   const rig::RigSettings& settings) {
   RigPorts ports = ports_of(boards, settings);
   return rig::RegisterCards::open(std::move(ports.pci1716), std::move(ports.pci1784), settings);
 }
 
 /// What happened at the boards, when all is over.
-void write_log(rig::EmulatedRig& emulated, const std::filesystem::path& file) {
+void write_log(rig::emulator::EmulatedRig& emulated, const std::filesystem::path& file) {
   if (file.empty()) {
     return;
   }
   std::string text;
-  const rig::EventLog& events = emulated.events();
+  const rig::emulator::EventLog& events = emulated.events();
   for (std::size_t i = events.first(); i < events.written(); ++i) {
     text += to_string(events[i]) + '\n';
   }
-  const rig::Pci1716Registers& card = emulated.boards().pci1716;
+  const rig::boards::Pci1716Registers& card = emulated.boards().pci1716;
   const hal::Truth truth = emulated.truth();
   const bool has_power = card.is_present.load();
   text += fmt::format(
@@ -70,8 +70,8 @@ std::filesystem::path guard_program() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "twin-guard";
 }
 
-rig::GuardTarget guard_target(const config::MachineFile& machine, std::string outputs) {
-  rig::GuardTarget target;
+rig::guard::GuardTarget guard_target(const config::MachineFile& machine, std::string outputs) {
+  rig::guard::GuardTarget target;
   target.program = guard_program();
   target.outputs = std::move(outputs);
   target.safe_digital = rig::safe_digital(machine.rig);
@@ -89,7 +89,7 @@ Expected<std::string> outputs_of_cards(const rig::RigSettings& settings) {
 }
 
 std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machine) {
-  auto guard = std::make_shared<rig::GuardProcess>();
+  auto guard = std::make_shared<rig::guard::GuardProcess>();
   const auto open = [guard, machine] {
     return outputs_of_cards(machine.rig)
         .and_then([&](const std::string& outputs) {
@@ -103,34 +103,30 @@ std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machin
 
 Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& options,
                                                             const config::MachineFile& machine) {
-  auto attached = rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kController);
-  if (!attached) {
-    return tl::unexpected(attached.error());
-  }
-  const std::shared_ptr<rig::SharedRegisters> shared = std::move(*attached);
-  auto guard = std::make_shared<rig::GuardProcess>();
+  TWIN_TRY(auto attached, rig::boards::SharedRegisters::attach(
+                              shared_name(options), rig::boards::SharedRole::kController));
+  const std::shared_ptr<rig::boards::SharedRegisters> shared = std::move(attached);
+  auto guard = std::make_shared<rig::guard::GuardProcess>();
   const auto open = [guard, shared, machine, name = shared_name(options)] {
     return guard->start(guard_target(machine, "shared:" + name)).and_then([&] {
       return open_boards(shared->boards(), machine.rig);
     });
   };
   return std::make_unique<rig::RigMachine>(machine.rig, scales_of(machine.table), open,
-                                           std::make_shared<rig::SharedBench>(shared), guard.get());
+                                           std::make_shared<rig::emulator::SharedBench>(shared),
+                                           guard.get());
 }
 
 Expected<std::unique_ptr<rig::RigMachine>> make_emulated_rig(const Options& options,
                                                              const config::MachineFile& machine) {
-  std::vector<rig::Fault> faults;
+  std::vector<rig::emulator::Fault> faults;
   for (const std::string& text : options.faults) {
-    auto fault = rig::parse_fault(text);
-    if (!fault) {
-      return tl::unexpected(fault.error());
-    }
-    faults.push_back(*fault);
+    TWIN_TRY(auto fault, rig::emulator::parse_fault(text));
+    faults.push_back(fault);
   }
-  const std::shared_ptr<rig::EmulatedRig> bench(
-      new rig::EmulatedRig(machine.table, machine.rig, std::move(faults)),
-      [log = options.rig_log](rig::EmulatedRig* emulated) {
+  const std::shared_ptr<rig::emulator::EmulatedRig> bench(
+      new rig::emulator::EmulatedRig(machine.table, machine.rig, std::move(faults)),
+      [log = options.rig_log](rig::emulator::EmulatedRig* emulated) {
         write_log(*emulated, log);
         delete emulated;
       });
@@ -160,7 +156,8 @@ Expected<RigKind> find_rig(const Options& options, const config::MachineFile& ma
   auto cards = look_for_real_cards(machine.rig);
   const bool has_process =
       options.rig == "auto" &&
-      rig::SharedRegisters::attach(shared_name(options), rig::SharedRole::kObserver).has_value();
+      rig::boards::SharedRegisters::attach(shared_name(options), rig::boards::SharedRole::kObserver)
+          .has_value();
   if (cards && has_process) {
     return fail(ErrorCode::kUsage,
                 "there are real cards and an emulator's process: say --rig cards or --rig process");
@@ -195,22 +192,16 @@ Expected<std::unique_ptr<rig::RigMachine>> make_rig(RigKind kind, const Options&
 Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
                                                     const config::MachineFile& machine,
                                                     const std::string& what) {
-  const auto kind = find_rig(options, machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  if (*kind != RigKind::kEmulated && (!options.faults.empty() || !options.rig_log.empty())) {
+  TWIN_TRY(const auto kind, find_rig(options, machine));
+  if (kind != RigKind::kEmulated && (!options.faults.empty() || !options.rig_log.empty())) {
     return fail(ErrorCode::kUsage,
                 fmt::format("--fault and --rig-log are for --rig emulated, and this rig is: {}; an "
                             "emulator's process takes --fault by itself",
-                            describe(*kind)));
+                            describe(kind)));
   }
-  auto opened = make_rig(*kind, options, machine);
+  auto opened = make_rig(kind, options, machine);
   if (opened) {
-    auto confirmed = confirm_motion((*opened)->info(), options.i_know_it_moves, what);
-    if (!confirmed) {
-      return tl::unexpected(std::move(confirmed.error()));
-    }
+    TWIN_CHECK(confirm_motion((*opened)->info(), options.i_know_it_moves, what));
   }
   return opened;
 }

@@ -10,16 +10,16 @@ namespace twin::cli {
 
 namespace rig = hal::rig;
 
-RigPorts ports_of(rig::BoardRegisters& boards, const rig::RigSettings& settings,
+RigPorts ports_of(rig::boards::BoardRegisters& boards, const rig::RigSettings& settings,
                   std::shared_ptr<void> owner) {
-  rig::Pci1784Layout layout;
+  rig::boards::Pci1784Layout layout;
   layout.reset = static_cast<std::uint32_t>(settings.counter_reset_offset);
-  return {std::move(owner), std::make_unique<rig::EmulatedPci1716>(boards.pci1716),
-          std::make_unique<rig::EmulatedPci1784>(boards.pci1784, layout)};
+  return {std::move(owner), std::make_unique<rig::boards::EmulatedPci1716>(boards.pci1716),
+          std::make_unique<rig::boards::EmulatedPci1784>(boards.pci1784, layout)};
 }
 
 std::string shared_name(const Options& options) {
-  return options.rig_name.empty() ? rig::default_shared_name() : options.rig_name;
+  return options.rig_name.empty() ? rig::boards::default_shared_name() : options.rig_name;
 }
 
 }  // namespace twin::cli

@@ -16,8 +16,9 @@ std::string signal(const rig::Line& line, bool given, const char* yes, const cha
   return line.channel < 0 ? "not wired" : given ? yes : no;
 }
 
-void print_cards(const rig::CardKind& kind, const rig::RigSettings& settings) {
-  for (const rig::CardSeen& card : rig::look_for_cards(kind, settings.access, settings.sysfs)) {
+void print_cards(const rig::io_port::CardKind& kind, const rig::RigSettings& settings) {
+  for (const rig::io_port::CardSeen& card :
+       rig::io_port::look_for_cards(kind, settings.access, settings.sysfs)) {
     fmt::print("  {:<10}{}, {}\n", kind.name, card.pci.address,
                card.why.empty() ? fmt::format("board ID {}, {}", card.board_id, to_text(card.port))
                                 : card.why);
@@ -45,8 +46,8 @@ Expected<void> probe(const Options& options) {
   const rig::RigSettings& settings = rig_seen->settings;
   fmt::print("rig: {}\n", describe(rig_seen->kind));
   if (rig_seen->kind == RigKind::kCards) {
-    print_cards(rig::kPci1716, settings);
-    print_cards(rig::kPci1784, settings);
+    print_cards(rig::io_port::kPci1716, settings);
+    print_cards(rig::io_port::kPci1784, settings);
   }
   const rig::RigView view =
       rig::look_at_rig(*rig_seen->ports.pci1716, *rig_seen->ports.pci1784, settings);

@@ -3,117 +3,81 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "cli/progress.hpp"
-#include "cli/results.hpp"
-#include "config/find_file.hpp"
 #include "operator/operator_station.hpp"
 #include "results/metrics/summary.hpp"
-#include "runtime/program_bound.hpp"
-#include "runtime/run.hpp"
+#include "session/session.hpp"
 
 namespace twin::cli {
 namespace {
 
 /// Runs with a progress bar, and on the wall clock with what an operator needs.
-Expected<runtime::RunResult> run_with_operator(const Options& options,
-                                               runtime::RunRequest& request) {
+Expected<runtime::RunResult> run_with_operator(session::Session& session, const Options& options,
+                                               const std::atomic<bool>& stop) {
+  session::Attendance attendance;
+  attendance.stop = &stop;
   runtime::OperatorPanel panel;
   std::unique_ptr<operator_station::OperatorStation> station;
-  if (request.is_wall_clock) {
-    auto opened = operator_station::OperatorStation::open(
-        {.socket = options.control, .shows_status = !options.quiet}, panel);
-    if (!opened) {
-      return tl::unexpected(opened.error());
-    }
-    station = std::move(*opened);
-    request.panel = &panel;
+  if (session.is_on_wall_clock()) {
+    TWIN_TRY(station, operator_station::OperatorStation::open(
+                          {.socket = options.control, .shows_status = !options.quiet}, panel));
+    attendance.panel = &panel;
   } else if (!options.control.empty()) {
     return fail(ErrorCode::kUsage,
                 "--control is for runs on the wall clock: --realtime or --hal rig; in simulated "
                 "time there is --override");
   }
   const bool is_shown = station != nullptr && station->shows_status();
-  Progress progress(request.hal != nullptr ? "machining" : "planning", options.quiet || is_shown);
-  request.progress = progress.callback();
-  request.estimated = [&progress](double time) {
+  Progress progress(session.hal() != nullptr ? "machining" : "planning", options.quiet || is_shown);
+  attendance.progress = progress.callback();
+  attendance.estimated = [&progress](double time) {
     progress.rename(fmt::format("machining, {:.1f} s", time));
   };
-  return runtime::run_program(request);
+  return session.run(attendance);
+}
+
+/// Plots and video of what has been run.
+Expected<void> make_pictures(const session::Session& session, const Options& options) {
+  if (!options.no_plots) {
+    Progress progress("plots", options.quiet);
+    progress.show(0.0);
+    TWIN_CHECK(session.draw_figures());
+  }
+  if (options.video) {
+    Progress progress("video", options.quiet);
+    TWIN_CHECK(session.render_video(options.camera, progress.callback()));
+  }
+  return {};
 }
 
 /// run and plan differ in the machine alone: null plans only.
 Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bool has_machine) {
-  auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
-  }
-  auto program = config::find_program(options.programs.front());
-  if (!program) {
-    return tl::unexpected(program.error());
-  }
-  std::vector<runtime::OverrideChange> overrides;
-  if (!options.overrides.empty()) {
-    auto schedule = runtime::parse_override_schedule(options.overrides);
-    if (!schedule) {
-      return tl::unexpected(schedule.error());
-    }
-    overrides = std::move(*schedule);
-  }
-  std::unique_ptr<hal::Machine> hal;
-  if (has_machine) {
-    auto opened = open_machine(options, *machine, "run " + program->filename().string());
-    if (!opened) {
-      return tl::unexpected(opened.error());
-    }
-    hal = std::move(*opened);
-  }
-  runtime::RunRequest request;
-  request.program = *program;
-  request.machine = *machine;
-  request.hal = hal.get();
+  session::Request request;
+  TWIN_TRY(request.machine, read_machine(options));
+  request.program = options.programs.front();
   request.feedrate = feedrate_of(options);
-  request.directory = result_folder(options, *program);
-  request.is_wall_clock = options.realtime || (hal && hal->info().keeps_own_time);
-  request.stop = &stop;
-  request.overrides = std::move(overrides);
-  auto result = run_with_operator(options, request);
-  if (!result) {
-    return tl::unexpected(result.error());
+  request.folder = options.out;
+  request.pace = options.realtime ? session::Pace::kWallClock : session::Pace::kOwn;
+  request.has_bound = options.bound;
+  if (!options.overrides.empty()) {
+    TWIN_TRY(request.overrides, runtime::parse_override_schedule(options.overrides));
   }
-  if (options.bound && !result->failure) {
-    auto bound = runtime::time_bound(*program, *machine, request.feedrate);
-    if (!bound) {
-      return tl::unexpected(bound.error());
-    }
-    result->summary.time_bound = *bound;
+  if (has_machine) {
+    request.make_machine = [&options](const config::MachineFile& machine,
+                                      const std::string& purpose) {
+      return open_machine(options, machine, purpose);
+    };
   }
-  if (auto written = write_summary(request.directory, *result); !written) {
-    return written;
-  }
+  TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
+  TWIN_TRY(const runtime::RunResult result, run_with_operator(session, options, stop));
   if (!options.quiet) {
-    fmt::print("{}", results::to_table(result->summary, machine->limits));
+    fmt::print("{}", results::to_table(result.summary, session.machine().limits));
   }
-  if (result->failure) {
-    return tl::unexpected(*result->failure);
+  if (result.failure) {
+    return tl::unexpected(*result.failure);
   }
-  remove_stale_results(request.directory);
-  const std::string title = options.feedrate_mm_per_min
-                                ? fmt::format("{}, {:g} mm/min", program->filename().string(),
-                                              *options.feedrate_mm_per_min)
-                                : program->filename().string();
-  if (!options.no_plots) {
-    if (auto drawn = write_plots(request.directory, *program, title, !has_machine, options.quiet);
-        !drawn) {
-      return drawn;
-    }
-  }
-  if (options.video) {
-    if (auto rendered = write_video(request.directory, machine->table.model, title, options);
-        !rendered) {
-      return rendered;
-    }
-  }
+  TWIN_CHECK(make_pictures(session, options));
   if (!options.quiet) {
-    fmt::print("results in {}\n", request.directory.string());
+    fmt::print("results in {}\n", session.folder().string());
   }
   return {};
 }

@@ -98,11 +98,8 @@ struct Assign {
     }
     Vec3 vector;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto x = number(b, (*list)[i], "a number");
-      if (!x) {
-        return tl::unexpected(x.error());
-      }
-      vector[static_cast<Eigen::Index>(i)] = *x / b.per_base;
+      TWIN_TRY(const double x, number(b, (*list)[i], "a number"));
+      vector[static_cast<Eigen::Index>(i)] = x / b.per_base;
     }
     *field = vector;
     return {};
@@ -120,6 +117,21 @@ std::string real_text(double field, double per_base) {
 }
 
 }  // namespace
+
+const Binding* find_binding(const std::vector<Binding>& list, std::string_view section,
+                            std::string_view name) {
+  const auto found = std::ranges::find_if(list, [&](const Binding& b) {
+    return (b.section == section && b.is_called(name)) ||
+           (!b.former.empty() && b.former == fmt::format("{}.{}", section, name));
+  });
+  return found == list.end() ? nullptr : &*found;
+}
+
+std::string renaming_note(const Binding& binding, std::string_view section) {
+  return section == binding.section
+             ? ""
+             : fmt::format("{} is now called {}", binding.former, binding.path());
+}
 
 Expected<void> assign(const Binding& binding, const Value& value) {
   return std::visit(Assign{binding, value}, binding.target);

@@ -40,10 +40,11 @@ struct Binding {
   std::string name;     ///< "acceleration"
   std::string unit;     ///< "mm_per_s2", or empty
   Target target;
-  double min;             ///< smallest value, in the key's unit
-  double max;             ///< largest value, in the key's unit
-  std::string_view doc;   ///< what it means, in a few words
-  double per_base = 1.0;  ///< how many of the key's unit are one base unit: 60 for mm/min
+  double min;                    ///< smallest value, in the key's unit
+  double max;                    ///< largest value, in the key's unit
+  std::string_view doc;          ///< what it means, in a few words
+  double per_base = 1.0;         ///< how many of the key's unit are one base unit: 60 for mm/min
+  std::string_view former = {};  ///< path that it had before, "interpolator.kind"; still understood
 
   /// "acceleration_mm_per_s2"
   std::string key() const { return unit.empty() ? name : name + "_" + unit; }
@@ -59,7 +60,7 @@ struct Binding {
 std::vector<Binding> bindings(MachineFile& machine);
 
 /// The part of bindings() that is about the simulated table.
-std::vector<Binding> table_bindings(hal::TableParams& table);
+std::vector<Binding> table_bindings(hal::mujoco::TableParams& table);
 
 /// The part of bindings() that is about monitors and wall clock: [safety], [realtime].
 std::vector<Binding> safety_bindings(MachineFile& machine);
@@ -69,6 +70,15 @@ std::vector<Binding> home_bindings(MachineFile& machine);
 
 /// The part of bindings() that is about the real rig.
 std::vector<Binding> rig_bindings(hal::rig::RigSettings& rig);
+
+/// The setting with a key, by its present name, with or without unit, or by its former one.
+/// @returns null where there is none
+const Binding* find_binding(const std::vector<Binding>& list, std::string_view section,
+                            std::string_view name);
+
+/// "interpolator.kind is now called path.curves", where that is how the setting was asked for;
+/// else empty.
+std::string renaming_note(const Binding& binding, std::string_view section);
 
 /// Gives the field a value; the error has the key, the value, its unit and the range.
 Expected<void> assign(const Binding& binding, const Value& value);

@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 16> kUnits{
     "kg_m2",     "counts",       "N_m",       "deg",       "ms",       "mV",
     "Hz",        "kg",           "mm",        "N"};
 
-Binding binding_of(const std::string& section, const hal::Setting& setting) {
+Binding binding_of(const std::string& section, const hal::mujoco::Setting& setting) {
   Binding binding{section, std::string(setting.key), "", setting.value, setting.min, setting.max,
                   ""};
   binding.per_base = 1.0 / setting.to_base;
@@ -27,20 +27,21 @@ Binding binding_of(const std::string& section, const hal::Setting& setting) {
   return binding;
 }
 
-void add_axis(std::vector<Binding>& list, const std::string& section, hal::AxisParams& axis) {
-  list.push_back({section, "dac_bits", "", &axis.dac_bits, hal::kMinDacBits, hal::kMaxDacBits,
-                  "resolution of the D/A converter over +-10 V"});
-  for (const hal::Setting& setting : hal::axis_settings(axis)) {
+void add_axis(std::vector<Binding>& list, const std::string& section,
+              hal::mujoco::AxisParams& axis) {
+  list.push_back({section, "dac_bits", "", &axis.dac_bits, hal::mujoco::kMinDacBits,
+                  hal::mujoco::kMaxDacBits, "resolution of the D/A converter over +-10 V"});
+  for (const hal::mujoco::Setting& setting : hal::mujoco::axis_settings(axis)) {
     list.push_back(binding_of(section, setting));
   }
 }
 
 }  // namespace
 
-std::vector<Binding> table_bindings(hal::TableParams& table) {
+std::vector<Binding> table_bindings(hal::mujoco::TableParams& table) {
   std::vector<Binding> list;
   list.push_back({"table", "model", "", &table.model, 0.0, 0.0, "MJCF file, relative to this one"});
-  for (const hal::Setting& setting : hal::table_settings(table)) {
+  for (const hal::mujoco::Setting& setting : hal::mujoco::table_settings(table)) {
     list.push_back(binding_of("table", setting));
   }
   add_axis(list, "table.x", table.axis[hal::kX]);

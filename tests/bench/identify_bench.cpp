@@ -47,8 +47,8 @@ void mujoco_table(benchmark::State& state) {
       motion::AxisServo{machine.servo[0], 83.0, machine.period},
       motion::AxisServo{machine.servo[1], 83.0, machine.period}};
   for (auto _ : state) {
-    hal::MujocoMachine table(machine.table);
-    if (!table.configure(machine.period) || !table.activate()) {
+    hal::mujoco::MujocoMachine table(machine.table);
+    if (!checked(table.configure(machine.period)) || !checked(table.activate())) {
       state.SkipWithError("no table");
       return;
     }

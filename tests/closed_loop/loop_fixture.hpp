@@ -33,7 +33,7 @@ class LoopTest : public ::testing::Test {
 
   results::Summary run(const std::filesystem::path& nc, const std::string& machine_name) const {
     const config::MachineFile file = machine(machine_name);
-    hal::MujocoMachine table(file.table);
+    hal::mujoco::MujocoMachine table(file.table);
     return execute(nc, file, &table, std::nullopt);
   }
 

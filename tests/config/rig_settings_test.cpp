@@ -6,10 +6,10 @@
 namespace twin::config {
 namespace rig_settings_test {
 
-using hal::rig::Access;
 using hal::rig::Driver;
 using hal::rig::Level;
 using hal::rig::RigSettings;
+using hal::rig::io_port::Access;
 using ::testing::HasSubstr;
 
 std::string refusal(std::string_view text) {

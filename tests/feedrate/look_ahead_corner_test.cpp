@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "feedrate/limits/corner_limit.hpp"
+#include "feedrate/limits/corners.hpp"
 #include "tests/feedrate/profile/motion_profile.hpp"
 #include "tests/path/blocks.hpp"
 #include "tests/support/plan.hpp"

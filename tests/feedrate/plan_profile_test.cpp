@@ -15,6 +15,9 @@ using testing::PlanSettings;
 PlanSettings with(AccelerationProfile profile) {
   PlanSettings settings;
   settings.model.acceleration_profile = profile;
+  if (profile != AccelerationProfile::kTrapezoidal) {
+    settings.path.planner = Planner::kPaper;
+  }
   return settings;
 }
 

@@ -31,16 +31,16 @@ struct Kind {
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 std::unique_ptr<Machine> make_mujoco(const char* model) {
-  TableParams params;
+  mujoco::TableParams params;
   params.model = mjcf_file(model);
-  return std::make_unique<MujocoMachine>(params);
+  return std::make_unique<mujoco::MujocoMachine>(params);
 }
 
 std::unique_ptr<Machine> make_rig() {
-  const TableParams table = testing::default_table();
+  const mujoco::TableParams table = testing::default_table();
   const rig::RigSettings settings;
-  return rig::testing::make_emulated(table, std::make_shared<rig::EmulatedRig>(table, settings),
-                                     settings);
+  return rig::testing::make_emulated(
+      table, std::make_shared<rig::emulator::EmulatedRig>(table, settings), settings);
 }
 
 class MachineContract : public ::testing::TestWithParam<Kind> {
@@ -50,8 +50,8 @@ class MachineContract : public ::testing::TestWithParam<Kind> {
   Outputs outputs;
 
   void start() {
-    ASSERT_TRUE(machine->configure(kPeriod));
-    ASSERT_TRUE(machine->activate());
+    ASSERT_TRUE(checked(machine->configure(kPeriod)));
+    ASSERT_TRUE(checked(machine->activate()));
     outputs.servo_on = {true, true};
   }
 };
@@ -66,39 +66,39 @@ TEST_P(MachineContract, NamesItselfAndItsScales) {
 }
 
 TEST_P(MachineContract, RefusesToBeUsedBeforeItIsConfigured) {
-  EXPECT_FALSE(machine->activate());
+  EXPECT_FALSE(checked(machine->activate()));
   EXPECT_EQ(machine->read(inputs), Status::kError);
   EXPECT_FALSE(machine->last_error().empty());
   EXPECT_EQ(machine->write(outputs), Status::kError);
   machine->deactivate();
   machine->cleanup();
-  EXPECT_TRUE(machine->configure(kPeriod));
+  EXPECT_TRUE(checked(machine->configure(kPeriod)));
   EXPECT_TRUE(machine->last_error().empty());
 }
 
 TEST_P(MachineContract, RefusesPeriodsThatAreNone) {
   for (const double period : {0.0, -1e-3, std::numeric_limits<double>::quiet_NaN()}) {
-    const Expected<void> result = machine->configure(period);
+    const Expected<void> result = checked(machine->configure(period));
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kMachine);
   }
 }
 
 TEST_P(MachineContract, RefusesOutputsWhileInactive) {
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   EXPECT_EQ(machine->write(outputs), Status::kError);
   EXPECT_FALSE(machine->last_error().empty());
-  EXPECT_TRUE(machine->activate());
+  EXPECT_TRUE(checked(machine->activate()));
   EXPECT_EQ(machine->write(outputs), Status::kOk);
 }
 
 TEST_P(MachineContract, ActivatesOnceAtATime) {
   start();
-  EXPECT_FALSE(machine->activate());
-  EXPECT_FALSE(machine->configure(kPeriod));
+  EXPECT_FALSE(checked(machine->activate()));
+  EXPECT_FALSE(checked(machine->configure(kPeriod)));
   machine->deactivate();
   machine->deactivate();
-  EXPECT_TRUE(machine->activate());
+  EXPECT_TRUE(checked(machine->activate()));
 }
 
 TEST_P(MachineContract, ActivationIsZeroCounts) {
@@ -149,7 +149,7 @@ TEST_P(MachineContract, NotANumberStopsItAndActivationRecoversIt) {
   EXPECT_FALSE(machine->last_error().empty());
   outputs.volts[kY] = 0.0;
   EXPECT_EQ(machine->write(outputs), Status::kError) << "a stopped machine is inactive";
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->activate()));
   EXPECT_TRUE(machine->last_error().empty());
   EXPECT_EQ(machine->read(inputs), Status::kOk);
 }
@@ -172,7 +172,7 @@ TEST_P(MachineContract, TwoMachinesInOneProcessDoNotDisturbEachOther) {
   };
   const auto alone = testing::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
   const std::unique_ptr<Machine> other = GetParam().make();
-  ASSERT_TRUE(other->configure(kPeriod));
+  ASSERT_TRUE(checked(other->configure(kPeriod)));
   machine->cleanup();
   const auto beside = testing::run_loop(*machine, default_gains(), kPeriod, 0.3, [&](double t) {
     EXPECT_EQ(other->read(inputs), Status::kOk);
@@ -197,16 +197,16 @@ TEST_P(MachineContract, ReadAndWriteAllocateNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Machines, MachineContract,
-    ::testing::Values(Kind{"Ideal", [] { return std::make_unique<IdealMachine>(); }},
+    ::testing::Values(Kind{"Ideal", [] { return std::make_unique<ideal::IdealMachine>(); }},
                       Kind{"Mujoco", [] { return make_mujoco("xy_table.xml"); }},
                       Kind{"MujocoCompliant", [] { return make_mujoco("xy_table_compliant.xml"); }},
                       Kind{"EmulatedRig", make_rig}),
     [](const ::testing::TestParamInfo<Kind>& kind) { return kind.param.name; });
 
 TEST(IdealMachine, TruthIsTheReferenceOfTheSamePeriod) {
-  IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ideal::IdealMachine machine;
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs;
   Inputs inputs;
   for (int k = 1; k < 10; ++k) {

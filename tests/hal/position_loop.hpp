@@ -39,10 +39,10 @@ inline std::array<motion::Gains, 2> default_gains() {
 inline std::vector<Row> run_loop(Machine& machine, const std::array<motion::Gains, 2>& g,
                                  double period, double duration,
                                  const std::function<PlanePoint(double)>& motion) {
-  if (auto result = machine.configure(period); !result) {
+  if (auto result = checked(machine.configure(period)); !result) {
     throw std::runtime_error(to_string(result.error()));
   }
-  if (auto result = machine.activate(); !result) {
+  if (auto result = checked(machine.activate()); !result) {
     throw std::runtime_error(to_string(result.error()));
   }
   const MachineInfo& info = machine.info();

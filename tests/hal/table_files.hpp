@@ -12,16 +12,16 @@ inline std::string mjcf_file(const std::string& name) {
 }
 
 /// The table as the machine file has it.
-inline TableParams default_table() {
-  TableParams params;
+inline mujoco::TableParams default_table() {
+  mujoco::TableParams params;
   params.model = mjcf_file("xy_table.xml");
   return params;
 }
 
 /// The table without friction, disturbance, delay, lag and visible quantisation.
-inline TableParams faultless_table() {
-  TableParams params = default_table();
-  for (AxisParams& axis : params.axis) {
+inline mujoco::TableParams faultless_table() {
+  mujoco::TableParams params = default_table();
+  for (mujoco::AxisParams& axis : params.axis) {
     axis.friction.coulomb = 0.0;
     axis.friction.viscous = 0.0;
     axis.drive.hum_amplitude = 0.0;

@@ -14,7 +14,7 @@
 //
 // Settings: faultless_table() (no friction, hum, delay and current lag; 0.1 nm a count, 40 bits)
 // and besides a velocity loop of 8 kHz without integral (20 us of lag), physics steps of 12.5 us.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace circle_error_test {
 
 constexpr double kGain_Hz = 8000.0;  // of the velocity loop
@@ -114,4 +114,4 @@ INSTANTIATE_TEST_SUITE_P(GainsFeedratesRadii, SampledCircleError,
                                            Case{200.0, 0.0, 100.0, 5.0, 0.5e-3}));
 
 }  // namespace circle_error_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -10,7 +10,7 @@
 #include "tests/hal/table_files.hpp"
 
 // The table's velocity after a step of the drive command, without friction and disturbance.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace drive_step_test {
 
 using Complex = std::complex<double>;
@@ -67,8 +67,8 @@ TEST_P(VelocityStep, FollowsItsClosedFormWithinOnePercentOfTheFinalValue) {
   }
   const double period = 1e-4;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(period));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(period)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs;
   outputs.servo_on = {true, true};
   outputs.volts = {0.1, -0.1};
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Drives, VelocityStep,
                                            Case{80.0, 5e-3, 2e-3}));
 
 }  // namespace drive_step_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -9,7 +9,7 @@
 
 // Friction of the whole table at rest and about to move, servo off: MuJoCo's slide and the bristle
 // together.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace friction_at_rest_test {
 
 constexpr double kPeriod = 1e-3;  // [s]
@@ -25,7 +25,7 @@ class PushedTable : public ::testing::TestWithParam<Axis> {
   Axis axis = GetParam();
   double held = breakaway(params.axis[GetParam()]);  // breakaway force [N]
 
-  void SetUp() override { ASSERT_TRUE(machine.configure(kPeriod)); }
+  void SetUp() override { ASSERT_TRUE(checked(machine.configure(kPeriod))); }
 
   void pass(double seconds, double force) {
     Inputs inputs;
@@ -103,7 +103,7 @@ TEST_P(PushedTable, TerminalSpeedIsWhereFrictionBalancesThePush) {
   TableParams slippery = params;
   slippery.axis[axis].friction.viscous = 1.0;  // N s/mm, so that it settles soon
   MujocoMachine sliding(slippery);
-  ASSERT_TRUE(sliding.configure(kPeriod));
+  ASSERT_TRUE(checked(sliding.configure(kPeriod)));
   sliding.set_external_force(axis, friction.coulomb + 50.0);
   Inputs inputs;
   for (int k = 0; k < 1000; ++k) {
@@ -118,4 +118,4 @@ INSTANTIATE_TEST_SUITE_P(Axes, PushedTable, ::testing::Values(kX, kY),
                          });
 
 }  // namespace friction_at_rest_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -9,7 +9,7 @@ class PhysicsStep : public test::LoopTest, public ::testing::WithParamInterface<
   results::MachineFigures run_with(double share_of_step) const {
     config::MachineFile file = machine();
     file.table.physics_step *= share_of_step;
-    hal::MujocoMachine table(file.table);
+    hal::mujoco::MujocoMachine table(file.table);
     return execute(program(GetParam()), file, &table, std::nullopt)
         .run.value_or(results::MachineFigures());
   }

@@ -8,7 +8,7 @@
 #include "tests/hal/table_files.hpp"
 
 // Steady sliding at constant velocity: the motor's torque is what friction takes.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace stribeck_curve_test {
 
 constexpr double kStep = 1e-4;  // [s]
@@ -79,4 +79,4 @@ INSTANTIATE_TEST_SUITE_P(Axes, SteadySliding, ::testing::Values(kX, kY),
                          [](const auto& tested) { return tested.param == kX ? "X" : "Y"; });
 
 }  // namespace stribeck_curve_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -34,9 +34,9 @@ class CycleTest : public ::testing::Test {
 };
 
 TEST_F(CycleTest, AllocatesNothing) {
-  hal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  hal::ideal::IdealMachine machine;
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   const std::int64_t before = hal::testing::allocations();
   bool is_fine = cycle.hold() == hal::Status::kOk;
@@ -52,11 +52,11 @@ TEST_F(CycleTest, AllocatesNothing) {
 }
 
 TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
-  hal::TableParams params;
+  hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
-  hal::MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  hal::mujoco::MujocoMachine machine(params);
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   MonotonicClock clock;
   Pacer pacer(clock, 1e-5, {});
@@ -79,9 +79,9 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
 }
 
 TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
-  hal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  hal::ideal::IdealMachine machine;
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   std::int64_t periods = 0;
   while (cycle.prepare() == motion::Status::kMoving) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,10 @@ class FakeMachine final : public hal::Machine {
   int cleanups = 0;
 
   const hal::MachineInfo& info() const noexcept override { return info_; }
-  Expected<void> configure(double /*period*/) override { return {}; }
-  Expected<void> activate() override {
+  std::optional<Error> configure(double /*period*/) override { return {}; }
+  std::optional<Error> activate() override {
     if (fails_to_activate) {
-      return fail(ErrorCode::kMachine, "main power is off");
+      return hal::refusal("main power is off");
     }
     ++activations;
     return {};

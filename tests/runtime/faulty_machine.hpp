@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,7 +14,8 @@ namespace twin::test {
 /// The simulated table behind wires that can be cut, swapped or crossed from one period on.
 class FaultyMachine final : public hal::Machine {
  public:
-  explicit FaultyMachine(const hal::TableParams& params) : table_(params), info_(table_.info()) {}
+  explicit FaultyMachine(const hal::mujoco::TableParams& params)
+      : table_(params), info_(table_.info()) {}
 
   std::function<void(std::int64_t, hal::Inputs&)> on_read;    ///< gets the number of the read
   std::function<void(std::int64_t, hal::Outputs&)> on_write;  ///< gets the number of the write
@@ -24,8 +26,8 @@ class FaultyMachine final : public hal::Machine {
   bool is_off = false;
 
   const hal::MachineInfo& info() const noexcept override { return info_; }
-  Expected<void> configure(double period) override { return table_.configure(period); }
-  Expected<void> activate() override { return table_.activate(); }
+  std::optional<Error> configure(double period) override { return table_.configure(period); }
+  std::optional<Error> activate() override { return table_.activate(); }
   hal::Status read(hal::Inputs& inputs) noexcept override {
     const auto status = table_.read(inputs);
     ++reads;
@@ -54,7 +56,7 @@ class FaultyMachine final : public hal::Machine {
   std::string last_error() const override { return table_.last_error(); }
 
  private:
-  hal::MujocoMachine table_;
+  hal::mujoco::MujocoMachine table_;
   hal::MachineInfo info_;
 };
 

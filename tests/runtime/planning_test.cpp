@@ -100,6 +100,7 @@ TEST(Planning, ShortBlocksBecomeCurvesAndTheirLengthsAreThoseOfTheProgram) {
 
 TEST(Planning, LinearLeavesTheBlocksAsTheyAre) {
   config::MachineFile machine;
+  machine.path.planner = Planner::kPaper;
   machine.path.curves = CurveKind::kNone;
   const auto figures = plan(short_blocks(50), machine);
   ASSERT_TRUE(figures);

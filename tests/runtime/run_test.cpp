@@ -31,7 +31,7 @@ TEST_F(RunProgram, PlanAloneHasTheCommandAndNoMachine) {
 }
 
 TEST_F(RunProgram, IdealMachineHasTheErrorOfTheCommandAlone) {
-  hal::IdealMachine machine;
+  hal::ideal::IdealMachine machine;
   const auto result = run(&machine);
   ASSERT_TRUE(result) << to_string(result.error());
   ASSERT_FALSE(result->failure);
@@ -52,7 +52,7 @@ TEST_F(RunProgram, IdealMachineHasTheErrorOfTheCommandAlone) {
 }
 
 TEST_F(RunProgram, SimulatedTableFollowsWithinMicrometres) {
-  hal::MujocoMachine machine(request.machine.table);
+  hal::mujoco::MujocoMachine machine(request.machine.table);
   const auto result = run(&machine);
   ASSERT_TRUE(result) << to_string(result.error());
   ASSERT_FALSE(result->failure);
@@ -62,7 +62,7 @@ TEST_F(RunProgram, SimulatedTableFollowsWithinMicrometres) {
 }
 
 TEST_F(RunProgram, TwoRunsLeaveTheSameTrace) {
-  hal::MujocoMachine machine(request.machine.table);
+  hal::mujoco::MujocoMachine machine(request.machine.table);
   ASSERT_TRUE(run(&machine));
   const std::string first = test::content(folder / "out/trace.csv");
   ASSERT_TRUE(run(&machine));

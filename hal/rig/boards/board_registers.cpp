@@ -1,6 +1,6 @@
 #include "hal/rig/boards/board_registers.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 constexpr std::uint16_t kZeroVolts = 0x8000;  // offset binary
@@ -52,4 +52,4 @@ void power_on(BoardRegisters& boards, int pci1716_board_id, int pci1784_board_id
   power_on(boards.pci1784, pci1784_board_id);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

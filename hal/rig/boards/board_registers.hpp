@@ -7,7 +7,7 @@
 
 /// What is inside the emulated boards: plain atomics, so that they can lie in memory that two
 /// processes share, and so that a process that is killed in the middle of an access blocks nobody.
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 inline constexpr std::uint32_t kAdFifoSize = 1024;  ///< samples the A/D FIFO holds
 
@@ -64,4 +64,4 @@ struct BoardRegisters {
 /// inputs at 0 V. Not for cards in use.
 void power_on(BoardRegisters& boards, int pci1716_board_id, int pci1784_board_id) noexcept;
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -3,7 +3,7 @@
 #include "hal/rig/boards/junk.hpp"
 #include "hal/rig/boards/voltage_range.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 // Offsets in BAR2.
@@ -160,4 +160,4 @@ void EmulatedPci1716::write32(std::uint32_t, std::uint32_t) noexcept {
   rejected_ += card_.is_present.load() ? 1 : 0;
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -7,7 +7,7 @@
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 /// BAR2 of a PCI-1716, 32 bytes, over emulated registers.
 ///
@@ -16,7 +16,7 @@ namespace twin::hal::rig {
 /// another width, at an odd place or outside reads as all ones, writes nothing and is counted. The
 /// A/D converts at once on the software trigger, one channel of the scan per trigger. The 8254 is
 /// not emulated.
-class EmulatedPci1716 final : public IoPort {
+class EmulatedPci1716 final : public io_port::IoPort {
  public:
   /// @param owner  of the registers, kept as long as this; null: they live longer by themselves
   explicit EmulatedPci1716(Pci1716Registers& registers,
@@ -48,4 +48,4 @@ class EmulatedPci1716 final : public IoPort {
   int rejected_ = 0;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -3,7 +3,7 @@
 #include "hal/rig/boards/junk.hpp"
 #include "hal/rig/boards/running_counters.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 // Offsets in BAR2.
@@ -129,4 +129,4 @@ void EmulatedPci1784::write8(std::uint32_t, std::uint8_t) noexcept {
   rejected_ += card_.is_present.load() ? 1 : 0;
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -7,7 +7,7 @@
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 /// Offsets of the PCI-1784 that no source confirms.
 struct Pci1784Layout {
@@ -22,7 +22,7 @@ struct Pci1784Layout {
 /// 0x24 clears the interrupt status. Events are kept in the status whether enabled or not; bit 31
 /// is set while one is that is enabled. Registers are dwords, but for the word at 0x32; other
 /// accesses read as all ones, write nothing and are counted.
-class EmulatedPci1784 final : public IoPort {
+class EmulatedPci1784 final : public io_port::IoPort {
  public:
   /// @param owner  of the registers, kept as long as this; null: they live longer by themselves
   explicit EmulatedPci1784(Pci1784Registers& registers, Pci1784Layout layout = {},
@@ -53,4 +53,4 @@ class EmulatedPci1784 final : public IoPort {
   int rejected_ = 0;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 /// What an emulated register shows that has nothing to show: neither 0 nor all ones, another value
 /// at every offset, always the same there. Real-time safe.
@@ -15,4 +15,4 @@ constexpr std::uint32_t junk32(std::uint32_t offset) noexcept {
   return 0x6E000000U ^ (offset * 0x00010000U) ^ junk(offset);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 // Bits of the interrupt status; counter i has bit + i.
@@ -85,4 +85,4 @@ void QuadratureInputs::move(const std::array<EncoderMotion, 4>& motions, double 
   set_running_counters(card_, running);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -6,7 +6,7 @@
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/boards/running_counters.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 /// What the wires of one encoder did in a while.
 struct EncoderMotion {
@@ -44,4 +44,4 @@ class QuadratureInputs {
   std::uint64_t lost_ = 0;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

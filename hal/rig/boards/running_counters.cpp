@@ -1,6 +1,6 @@
 #include "hal/rig/boards/running_counters.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 // A try fails only when a change begins during its few loads.
@@ -37,4 +37,4 @@ void set_running_counters(Pci1784Registers& card, const CounterValues& values) n
   store(card.running[1], values);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

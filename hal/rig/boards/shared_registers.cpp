@@ -19,7 +19,7 @@
 
 #include "core/descriptor.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 using namespace std::chrono_literals;
@@ -174,9 +174,7 @@ Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::attach(const std::st
                       fmt::format("no emulator is running (no shared memory {}); {}", name, kStart))
                : refused(name, "opened");
   }
-  if (Expected<void> usable = check_block(name, file.get()); !usable) {
-    return tl::unexpected<Error>(usable.error());
-  }
+  TWIN_CHECK(check_block(name, file.get()));
   SharedBlock* block = map(file.get());
   if (block == nullptr) {
     return refused(name, "mapped");
@@ -220,4 +218,4 @@ bool is_running(pid_t process) noexcept {
   return !has_ended;
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -12,7 +12,7 @@
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/signals.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 /// What the process of the emulator and that of the controller share.
 struct SharedBlock {
@@ -81,4 +81,4 @@ class SharedRegisters {
 /// safe.
 bool is_running(pid_t process) noexcept;
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace {
 
 constexpr int kBits = 16;
@@ -67,4 +67,4 @@ std::uint16_t code(const VoltageRange& range, double volts) noexcept {
   return static_cast<std::uint16_t>(std::clamp(steps, 0.0, kLargestCode));
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -4,7 +4,7 @@
 
 /// Codes of the PCI-1716's converters in volts, by range. Codes are straight binary in a unipolar
 /// range and offset binary in a bipolar one.
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 
 /// Span of a 16-bit converter: code 0 is `low`, one step is `step`.
 struct VoltageRange {
@@ -22,4 +22,4 @@ double volts(const VoltageRange& range, std::uint16_t code) noexcept;
 /// Code of a voltage [V], limited to the range; 0 where there is no range. Real-time safe.
 std::uint16_t code(const VoltageRange& range, double volts) noexcept;
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

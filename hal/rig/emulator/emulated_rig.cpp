@@ -5,7 +5,7 @@
 
 #include "hal/rig/boards/voltage_range.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace {
 
 constexpr std::size_t kEvents = 4096;
@@ -26,23 +26,20 @@ std::uint16_t bit(const Line& line, bool is_signal_given) noexcept {
 
 }  // namespace
 
-EmulatedRig::EmulatedRig(TableParams table, RigSettings wiring, std::vector<Fault> faults,
-                         BoardRegisters* boards)
+EmulatedRig::EmulatedRig(mujoco::TableParams table, RigSettings wiring, std::vector<Fault> faults,
+                         boards::BoardRegisters* boards)
     : table_(std::move(table)),
       wiring_(std::move(wiring)),
       faults_(std::move(faults)),
-      own_(boards == nullptr ? std::make_unique<BoardRegisters>() : nullptr),
+      own_(boards == nullptr ? std::make_unique<boards::BoardRegisters>() : nullptr),
       boards_(boards == nullptr ? own_.get() : boards),
       events_(kEvents) {
-  rig::power_on(*boards_, wiring_.pci1716_board_id, wiring_.pci1784_board_id);
+  boards::power_on(*boards_, wiring_.pci1716_board_id, wiring_.pci1784_board_id);
 }
 
 Expected<void> EmulatedRig::power_on(double period) {
-  Expected<std::unique_ptr<TablePlant>> plant = TablePlant::open(table_, period);
-  if (!plant) {
-    return tl::unexpected<Error>(plant.error());
-  }
-  plant_ = std::move(*plant);
+  TWIN_TRY(std::unique_ptr<mujoco::TablePlant> plant, mujoco::TablePlant::open(table_, period));
+  plant_ = std::move(plant);
   period_ = period;
   struck_.assign(faults_.size(), 0);
   state_.fill(AxisState{});
@@ -53,7 +50,7 @@ Expected<void> EmulatedRig::power_on(double period) {
     shafts_.emplace_back(table_.axis[axis], plant_->encoder_position(axis));
     origin_[axis] = plant_->position(axis);
   }
-  rig::power_on(*boards_, wiring_.pci1716_board_id, wiring_.pci1784_board_id);
+  boards::power_on(*boards_, wiring_.pci1716_board_id, wiring_.pci1784_board_id);
   inputs_.emplace(boards_->pci1784);
   show_inputs();
   return {};
@@ -64,7 +61,7 @@ bool EmulatedRig::advance() noexcept {
     return false;
   }
   strike_due_faults();
-  const Pci1716Registers& card = boards_->pci1716;
+  const boards::Pci1716Registers& card = boards_->pci1716;
   const bool has_power = card.is_present.load();
   const std::uint16_t digital_out =
       has_power ? card.digital_out.load(std::memory_order_acquire) : std::uint16_t{0};
@@ -85,12 +82,12 @@ bool EmulatedRig::advance() noexcept {
 }
 
 double EmulatedRig::dac_volts(std::size_t axis) const noexcept {
-  const Pci1716Registers& card = boards_->pci1716;
+  const boards::Pci1716Registers& card = boards_->pci1716;
   if (!card.is_present.load()) {
     return 0.0;
   }
   const int channel = wiring_.axis[axis].dac;
-  return volts(analogue_output_range(card.dac_range.load(), channel),
+  return volts(boards::analogue_output_range(card.dac_range.load(), channel),
                card.dac[static_cast<std::size_t>(channel)].load(std::memory_order_acquire));
 }
 
@@ -113,9 +110,9 @@ void EmulatedRig::drive(std::size_t axis, std::uint16_t digital_out) noexcept {
   plant_->command(axis, state.vref, servo_on);
 }
 
-EncoderMotion EmulatedRig::encoder_motion(std::size_t axis) noexcept {
+boards::EncoderMotion EmulatedRig::encoder_motion(std::size_t axis) noexcept {
   AxisState& state = state_[axis];
-  EncoderMotion motion = shafts_[axis].move_to(plant_->encoder_position(axis));
+  boards::EncoderMotion motion = shafts_[axis].move_to(plant_->encoder_position(axis));
   if (is_broken(axis, FaultKind::kEncoderFrozen)) {
     return {};
   }
@@ -134,7 +131,7 @@ EncoderMotion EmulatedRig::encoder_motion(std::size_t axis) noexcept {
 }
 
 void EmulatedRig::show_counters() noexcept {
-  std::array<EncoderMotion, 4> motions{};
+  std::array<boards::EncoderMotion, 4> motions{};
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     motions[static_cast<std::size_t>(wiring_.axis[axis].counter)] = encoder_motion(axis);
   }
@@ -187,4 +184,4 @@ std::string EmulatedRig::last_error() const {
   return plant_ ? plant_->last_error() : "the emulated rig was used before it was switched on";
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -17,7 +17,7 @@
 #include "hal/rig/emulator/shaft.hpp"
 #include "hal/rig/rig_settings.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 /// Both cards, the drives and the table: emulated boards whose wires end in TablePlant.
 ///
@@ -35,8 +35,8 @@ class EmulatedRig final : public Bench {
  public:
   /// @param wiring   how the wires truly run, whatever a driver believes
   /// @param boards   registers that live longer than this; null: own ones
-  EmulatedRig(TableParams table, RigSettings wiring, std::vector<Fault> faults = {},
-              BoardRegisters* boards = nullptr);
+  EmulatedRig(mujoco::TableParams table, RigSettings wiring, std::vector<Fault> faults = {},
+              boards::BoardRegisters* boards = nullptr);
 
   /// Cards, drives and table are switched on anew.
   Expected<void> power_on(double period) override;
@@ -45,7 +45,7 @@ class EmulatedRig final : public Bench {
   void set_pen_reference(double z) noexcept override;
   std::string last_error() const override;
 
-  BoardRegisters& boards() noexcept { return *boards_; }
+  boards::BoardRegisters& boards() noexcept { return *boards_; }
   /// What happened. For the thread that calls advance().
   EventLog& events() noexcept { return events_; }
   /// Breaks something now, whatever its time. Real-time safe.
@@ -55,7 +55,7 @@ class EmulatedRig final : public Bench {
   /// Edges that the counters' filters have swallowed.
   std::uint64_t lost_edges() const noexcept { return inputs_ ? inputs_->lost_edges() : 0; }
   /// The drives and the table; null before power on.
-  TablePlant* plant() noexcept { return plant_.get(); }
+  mujoco::TablePlant* plant() noexcept { return plant_.get(); }
 
  private:
   struct AxisState {
@@ -75,7 +75,7 @@ class EmulatedRig final : public Bench {
   void strike_due_faults() noexcept;
   double dac_volts(std::size_t axis) const noexcept;
   void drive(std::size_t axis, std::uint16_t digital_out) noexcept;
-  EncoderMotion encoder_motion(std::size_t axis) noexcept;
+  boards::EncoderMotion encoder_motion(std::size_t axis) noexcept;
   void show_counters() noexcept;
   void show_inputs() noexcept;
   void show_analogue() noexcept;
@@ -86,16 +86,16 @@ class EmulatedRig final : public Bench {
     return state_[axis].broken.test(static_cast<std::size_t>(kind));
   }
 
-  TableParams table_;
+  mujoco::TableParams table_;
   RigSettings wiring_;
   std::vector<Fault> faults_;
   std::vector<char> struck_;  // of each fault
-  std::unique_ptr<BoardRegisters> own_;
-  BoardRegisters* boards_;
+  std::unique_ptr<boards::BoardRegisters> own_;
+  boards::BoardRegisters* boards_;
   EventLog events_;
-  std::unique_ptr<TablePlant> plant_;
+  std::unique_ptr<mujoco::TablePlant> plant_;
   std::vector<Shaft> shafts_;
-  std::optional<QuadratureInputs> inputs_;
+  std::optional<boards::QuadratureInputs> inputs_;
   std::array<AxisState, kServoAxes> state_{};
   std::array<RestWatch, 2> rest_{};
   std::array<double, kServoAxes> origin_{};  // of truth() [mm]
@@ -103,4 +103,4 @@ class EmulatedRig final : public Bench {
   double period_ = 0.0;                      // [s]
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -7,7 +7,7 @@
 #include "core/monotonic.hpp"
 #include "hal/rig/emulator/emulated_rig.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 void EmulatedRig::tell(EventKind kind, std::size_t index, std::int64_t value) noexcept {
   events_.add({kind, index, value, time(), monotonic_ns()});
@@ -98,4 +98,4 @@ void EmulatedRig::notice(std::size_t axis) noexcept {
   }
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -6,7 +6,7 @@
 #include "hal/rig/emulator/fault.hpp"
 #include "hal/signals.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace {
 
 constexpr std::uint16_t kZeroVolts = 0x8000;
@@ -83,4 +83,4 @@ bool RestWatch::take(std::uint16_t code, double plant_time, Event& event) noexce
   return true;
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 /// What an emulated rig has to tell. In brackets: the channel or axis, and the value.
 enum class EventKind : std::uint8_t {
@@ -75,4 +75,4 @@ class RestWatch {
   std::int64_t since_ns_ = 0;  // the same on the clock [ns]
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <stop_token>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 EventTeller::EventTeller(const std::function<void(std::string_view)>& tell)
     : tell_(tell), thread_([this](const std::stop_token& stop) {
@@ -27,4 +27,4 @@ void EventTeller::tell_all() {
   }
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -7,7 +7,7 @@
 
 #include "hal/rig/emulator/event_log.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 /// Tells events line by line from a thread of its own, so that a slow terminal or disk does not
 /// hold up the plant.
@@ -29,4 +29,4 @@ class EventTeller {
   std::jthread thread_;  // last: ends before what it uses
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

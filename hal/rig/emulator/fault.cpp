@@ -9,7 +9,7 @@
 
 #include "hal/signals.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace {
 
 // In the order of FaultKind.
@@ -88,4 +88,4 @@ std::string to_string(const Fault& fault) {
                      fault.time);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

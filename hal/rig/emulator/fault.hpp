@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 /// What can break between the cards and the table, or at the cards. Each stays broken.
 enum class FaultKind : std::uint8_t {
@@ -50,4 +50,4 @@ Expected<Fault> parse_fault(std::string_view text);
 /// The text that parse_fault() reads.
 std::string to_string(const Fault& fault);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

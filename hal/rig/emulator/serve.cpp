@@ -12,7 +12,7 @@
 #include "hal/rig/emulator/emulated_rig.hpp"
 #include "hal/rig/emulator/event_teller.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace {
 
 constexpr std::int64_t kMostBehind = 20'000'000;      // caught up with at most [ns]
@@ -25,7 +25,7 @@ std::int64_t nanoseconds(double seconds) noexcept {
 /// The process of the emulator: plant, registers and clock.
 class Server {
  public:
-  Server(std::unique_ptr<SharedRegisters> shared, const TableParams& table,
+  Server(std::unique_ptr<boards::SharedRegisters> shared, const mujoco::TableParams& table,
          const RigSettings& wiring, const ServeSettings& settings,
          const std::function<void(std::string_view)>& tell)
       : shared_(std::move(shared)),
@@ -43,7 +43,7 @@ class Server {
   void tell_events();
   void leave_out(std::int64_t nanoseconds_behind);
 
-  std::unique_ptr<SharedRegisters> shared_;
+  std::unique_ptr<boards::SharedRegisters> shared_;
   EmulatedRig rig_;
   EventTeller teller_;
   double step_;                 // [s]
@@ -73,8 +73,8 @@ void Server::tell_events() {
 void Server::watch_controller(std::int64_t now) {
   const pid_t attached = shared_->block().controller.load();
   if (attached != controller_ && controller_ != 0) {
-    add(is_running(controller_) || attached == 0 ? EventKind::kControllerLeft
-                                                 : EventKind::kControllerDied,
+    add(boards::is_running(controller_) || attached == 0 ? EventKind::kControllerLeft
+                                                         : EventKind::kControllerDied,
         controller_);
     controller_ = 0;
   }
@@ -86,7 +86,7 @@ void Server::watch_controller(std::int64_t now) {
     return;
   }
   next_look_ = now + kControllerCheck;
-  if (!is_running(controller_)) {
+  if (!boards::is_running(controller_)) {
     add(EventKind::kControllerDied, controller_);
     pid_t dead = std::exchange(controller_, 0);
     shared_->block().controller.compare_exchange_strong(dead, 0);
@@ -94,7 +94,7 @@ void Server::watch_controller(std::int64_t now) {
 }
 
 Expected<void> Server::advance(std::int64_t now) {
-  SharedBlock& block = shared_->block();
+  boards::SharedBlock& block = shared_->block();
   rig_.set_pen_reference(block.pen_reference.load(std::memory_order_relaxed));
   if (!rig_.advance()) {
     return fail(ErrorCode::kMachine, rig_.last_error());
@@ -119,9 +119,7 @@ void Server::leave_out(std::int64_t nanoseconds_behind) {
 }
 
 Expected<ServeResult> Server::run(std::optional<double> duration, const std::atomic<bool>& stop) {
-  if (Expected<void> on = rig_.power_on(step_); !on) {
-    return tl::unexpected<Error>(on.error());
-  }
+  TWIN_CHECK(rig_.power_on(step_));
   shared_->publish();
   const std::int64_t start = monotonic_ns();
   next_ = start + step_ns_;
@@ -148,7 +146,7 @@ Expected<ServeResult> Server::run(std::optional<double> duration, const std::ato
 
 }  // namespace
 
-Expected<ServeResult> serve(const TableParams& table, const RigSettings& wiring,
+Expected<ServeResult> serve(const mujoco::TableParams& table, const RigSettings& wiring,
                             const ServeSettings& settings, const std::atomic<bool>& stop,
                             const std::function<void(std::string_view)>& tell) {
   if (!(settings.step >= 1e-5 && settings.step <= 0.1)) {
@@ -156,12 +154,10 @@ Expected<ServeResult> serve(const TableParams& table, const RigSettings& wiring,
                 fmt::format("step {} s of the emulator is outside 0.00001 to 0.1", settings.step));
   }
   ::prctl(PR_SET_TIMERSLACK, 1UL);  // the default lets sleeps end 50 us late
-  Expected<std::unique_ptr<SharedRegisters>> shared =
-      SharedRegisters::create(settings.name.empty() ? default_shared_name() : settings.name);
-  if (!shared) {
-    return tl::unexpected<Error>(shared.error());
-  }
-  return Server(std::move(*shared), table, wiring, settings, tell).run(settings.duration, stop);
+  TWIN_TRY(std::unique_ptr<boards::SharedRegisters> shared,
+           boards::SharedRegisters::create(settings.name.empty() ? boards::default_shared_name()
+                                                                 : settings.name));
+  return Server(std::move(shared), table, wiring, settings, tell).run(settings.duration, stop);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

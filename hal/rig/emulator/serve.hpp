@@ -13,7 +13,7 @@
 #include "hal/rig/emulator/fault.hpp"
 #include "hal/rig/rig_settings.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 /// How the emulated rig runs as a process of its own.
 struct ServeSettings {
@@ -44,8 +44,8 @@ struct ServeResult {
 ///
 /// @param tell  gets each line, without its end
 /// @returns kMachine error: another emulator runs, or the simulation failed; kModel: no such model
-Expected<ServeResult> serve(const TableParams& table, const RigSettings& wiring,
+Expected<ServeResult> serve(const mujoco::TableParams& table, const RigSettings& wiring,
                             const ServeSettings& settings, const std::atomic<bool>& stop,
                             const std::function<void(std::string_view)>& tell);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
-Shaft::Shaft(const AxisParams& axis, double position) noexcept
+Shaft::Shaft(const mujoco::AxisParams& axis, double position) noexcept
     : encoder_(axis.encoder), lead_(axis.screw.lead), origin_(position) {
   encoder_.zero(position);
   counts_ = encoder_.counts(position);
@@ -14,8 +14,8 @@ std::int64_t Shaft::turn(double position) const noexcept {
   return static_cast<std::int64_t>(std::floor((position - origin_) / lead_ + 0.5));
 }
 
-EncoderMotion Shaft::move_to(double position) noexcept {
-  EncoderMotion motion;
+boards::EncoderMotion Shaft::move_to(double position) noexcept {
+  boards::EncoderMotion motion;
   const std::int64_t counts = encoder_.counts(position);
   const std::int64_t turn_now = turn(position);
   motion.edges = counts - counts_;
@@ -30,4 +30,4 @@ EncoderMotion Shaft::move_to(double position) noexcept {
   return motion;
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

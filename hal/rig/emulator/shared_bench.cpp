@@ -4,7 +4,7 @@
 
 #include "core/monotonic.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 Expected<void> SharedBench::power_on(double /*period*/) {
   if (shared_->block().has_ended.load()) {
@@ -44,4 +44,4 @@ void SharedBench::set_pen_reference(double z) noexcept {
   shared_->block().pen_reference.store(z, std::memory_order_relaxed);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

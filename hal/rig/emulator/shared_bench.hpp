@@ -6,7 +6,7 @@
 #include "hal/rig/bench.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 
 /// The bench of a controller whose emulator is another process: time passes there.
 ///
@@ -17,7 +17,7 @@ namespace twin::hal::rig {
 /// dead plant do. One that ends by itself takes its cards away, which the cards' driver sees.
 class SharedBench final : public Bench {
  public:
-  explicit SharedBench(std::shared_ptr<SharedRegisters> shared) noexcept
+  explicit SharedBench(std::shared_ptr<boards::SharedRegisters> shared) noexcept
       : shared_(std::move(shared)) {}
 
   /// The emulator has switched on already.
@@ -31,8 +31,8 @@ class SharedBench final : public Bench {
  private:
   static constexpr std::int64_t kLongestWait = 10'000'000;  // [ns]
 
-  std::shared_ptr<SharedRegisters> shared_;
+  std::shared_ptr<boards::SharedRegisters> shared_;
   std::int64_t given_up_at_ = -1;  // time of an emulator that did not catch up [ns]
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

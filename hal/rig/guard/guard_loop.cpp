@@ -7,7 +7,7 @@
 
 #include "hal/rig/guard/heartbeat_timer.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace {
 
 constexpr int kTurn = 1;  // [ms]
@@ -60,4 +60,4 @@ void run_guard(GuardPage& page, int lifeline, std::chrono::nanoseconds timeout,
   }
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

@@ -5,7 +5,7 @@
 
 #include "hal/rig/guard/guard_page.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 
 /// The guard's work: makes the outputs safe when an armed controller is gone or silent.
 ///
@@ -22,4 +22,4 @@ namespace twin::hal::rig {
 void run_guard(GuardPage& page, int lifeline, std::chrono::nanoseconds timeout,
                const std::function<void()>& make_safe);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

@@ -16,7 +16,7 @@
 // ended.
 namespace {
 
-using namespace twin::hal::rig;
+using namespace twin::hal::rig::guard;
 
 struct Options {
   int page = -1;

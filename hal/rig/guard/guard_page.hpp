@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 
 /// What the guard is doing.
 enum class GuardState : std::uint32_t {
@@ -28,4 +28,4 @@ struct GuardPage {
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

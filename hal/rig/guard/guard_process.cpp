@@ -18,7 +18,7 @@
 
 #include "core/descriptor.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace {
 
 using namespace std::chrono_literals;
@@ -207,4 +207,4 @@ bool GuardProcess::is_alive() noexcept {
   return !guard_timer_.is_late(now, page_->turns.load(std::memory_order_relaxed), true);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

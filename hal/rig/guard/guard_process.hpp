@@ -12,7 +12,7 @@
 #include "hal/rig/guard/heartbeat_timer.hpp"
 #include "hal/rig/watch.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 
 /// What the guard must know to make the outputs safe without the controller.
 struct GuardTarget {
@@ -56,4 +56,4 @@ class GuardProcess final : public Watch {
   HeartbeatTimer guard_timer_{std::chrono::seconds(1)};
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

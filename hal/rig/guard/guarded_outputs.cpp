@@ -13,7 +13,7 @@
 #include "hal/rig/io_port/port_address.hpp"
 #include "hal/rig/pci1716.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace {
 
 using MakeSafe = std::function<void()>;
@@ -28,12 +28,9 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
 }
 
 Expected<MakeSafe> open_shared(const std::string& name, std::uint16_t digital) {
-  auto attached = SharedRegisters::attach(name, SharedRole::kObserver);
-  if (!attached) {
-    return tl::unexpected(attached.error());
-  }
-  const std::shared_ptr<SharedRegisters> shared = std::move(*attached);
-  const auto port = std::make_shared<EmulatedPci1716>(shared->boards().pci1716);
+  TWIN_TRY(auto attached, boards::SharedRegisters::attach(name, boards::SharedRole::kObserver));
+  const std::shared_ptr<boards::SharedRegisters> shared = std::move(attached);
+  const auto port = std::make_shared<boards::EmulatedPci1716>(shared->boards().pci1716);
   return [shared, port, digital] { make_safe(*port, digital); };
 }
 
@@ -47,18 +44,16 @@ Expected<MakeSafe> open_daqnavi(std::string_view library_and_board, std::uint16_
           std::errc()) {
     return fail(ErrorCode::kUsage, fmt::format("daqnavi:{} has no board ID", library_and_board));
   }
-  auto cards = DaqnaviCards::open_outputs_only(std::string(library_and_board.substr(0, colon)),
-                                               board_id, digital);
-  if (!cards) {
-    return tl::unexpected(cards.error());
-  }
-  return [open = std::shared_ptr<Cards>(std::move(*cards))] { open->make_safe(); };
+  TWIN_TRY(auto cards, DaqnaviCards::open_outputs_only(
+                           std::string(library_and_board.substr(0, colon)), board_id, digital));
+  return [open = std::shared_ptr<Cards>(std::move(cards))] { open->make_safe(); };
 }
 
 Expected<MakeSafe> open_registers(std::string_view address, std::uint16_t digital) {
-  return port_address_from_text(address).and_then(open_port).map(
-      [digital](std::unique_ptr<IoPort> opened) {
-        const std::shared_ptr<IoPort> port = std::move(opened);
+  return io_port::port_address_from_text(address)
+      .and_then(io_port::open_port)
+      .map([digital](std::unique_ptr<io_port::IoPort> opened) {
+        const std::shared_ptr<io_port::IoPort> port = std::move(opened);
         return MakeSafe([port, digital] { make_safe(*port, digital); });
       });
 }
@@ -77,4 +72,4 @@ Expected<MakeSafe> open_guarded_outputs(const std::string& outputs, unsigned dig
   return open_registers(rest, levels);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "hal/rig/rig_settings.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 
 /// Opens the outputs of a rig a second time, beside the controller.
 ///
@@ -18,4 +18,4 @@ namespace twin::hal::rig {
 /// @returns what puts 0 V on both converters and then switches the servos off
 Expected<std::function<void()>> open_guarded_outputs(const std::string& outputs, unsigned digital);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

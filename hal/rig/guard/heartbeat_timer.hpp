@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 
 /// Notices that a count which should go on has stood still for too long.
 class HeartbeatTimer {
@@ -31,4 +31,4 @@ class HeartbeatTimer {
   bool was_expected_ = false;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

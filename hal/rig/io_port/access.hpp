@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// How registers are reached.
 enum class Access : std::uint8_t {
@@ -10,4 +10,4 @@ enum class Access : std::uint8_t {
   kIoperm,  ///< port instructions after ioperm()
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

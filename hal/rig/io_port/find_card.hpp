@@ -9,7 +9,7 @@
 #include "hal/rig/io_port/pci_device.hpp"
 #include "hal/rig/io_port/port_address.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// A kind of card and the register that shows its board ID switch in bits 3:0.
 struct CardKind {
@@ -47,4 +47,4 @@ std::vector<CardSeen> look_for_cards(const CardKind& kind, Access access,
 Expected<CardSeen> find_card(const CardKind& kind, int board_id, Access access,
                              const std::string& sysfs = "/sys");
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

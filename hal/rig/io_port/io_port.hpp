@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// The registers of one card: 8, 16 and 32 bit accesses at byte offsets of its BAR.
 ///
@@ -28,4 +28,4 @@ class IoPort {
   virtual int error() const noexcept = 0;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

@@ -12,7 +12,7 @@
 #define TWIN_HAS_PORT_INSTRUCTIONS 0
 #endif
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 #if TWIN_HAS_PORT_INSTRUCTIONS
 
@@ -63,4 +63,4 @@ void IopermPort::write32(std::uint32_t, std::uint32_t) noexcept {}
 
 #endif
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

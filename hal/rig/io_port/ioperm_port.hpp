@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// Registers by port instructions (in, out), permitted by ioperm(): no system call per access.
 ///
@@ -37,4 +37,4 @@ class IopermPort final : public IoPort {
   std::uint32_t base_;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

@@ -14,7 +14,7 @@
 #include <sstream>
 #include <utility>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,4 +121,4 @@ Expected<void> enable(const PciDevice& device) {
   return {};
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

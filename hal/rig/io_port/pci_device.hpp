@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// A PCI device as sysfs shows it.
 struct PciDevice {
@@ -36,4 +36,4 @@ Expected<std::uint32_t> io_base(const PciDevice& device, int bar);
 /// Switches a device on that no kernel driver has switched on (file `enable`), so that it answers.
 Expected<void> enable(const PciDevice& device);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

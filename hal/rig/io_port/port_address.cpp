@@ -7,7 +7,7 @@
 #include "hal/rig/io_port/ioperm_port.hpp"
 #include "hal/rig/io_port/sysfs_port.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 namespace {
 
 constexpr std::string_view kSysfsPrefix = "sysfs:";
@@ -43,4 +43,4 @@ Expected<std::unique_ptr<IoPort>> open_port(const PortAddress& address) {
                                           : IopermPort::open(address.base).map(as_port);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

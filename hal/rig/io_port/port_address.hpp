@@ -9,7 +9,7 @@
 #include "hal/rig/io_port/access.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// Where the registers of a card are, so that another process can open them as well.
 struct PortAddress {
@@ -29,4 +29,4 @@ Expected<PortAddress> port_address_from_text(std::string_view text);
 /// Opens the port; the error says what is missing and what to do.
 Expected<std::unique_ptr<IoPort>> open_port(const PortAddress& address);
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

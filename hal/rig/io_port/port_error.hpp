@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// The first errno of a port; a later one changes nothing. Lock-free, so that a signal handler may
 /// use the port.
@@ -18,4 +18,4 @@ class PortError {
   std::atomic<int> first_{0};
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 namespace {
 
 // One access of exactly sizeof(T) bytes: a short one is no access at all.
@@ -72,4 +72,4 @@ void SysfsPort::write32(std::uint32_t offset, std::uint32_t value) noexcept {
   write_register(descriptor_, offset, value, error_);
 }
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

@@ -7,7 +7,7 @@
 #include "hal/rig/io_port/io_port.hpp"
 #include "hal/rig/io_port/port_error.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::io_port {
 
 /// Registers through a card's `resourceN` file: the kernel turns a pread or pwrite of 1, 2 or 4
 /// bytes at a register's offset into one in or out instruction of that width
@@ -36,4 +36,4 @@ class SysfsPort final : public IoPort {
   PortError error_;
 };
 
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::io_port

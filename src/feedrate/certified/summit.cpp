@@ -1,8 +1,9 @@
 #include "feedrate/certified/summit.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -16,7 +17,8 @@ void append(std::vector<Phase>& phases, PathMotion& at, double duration, double 
 
 }  // namespace
 
-bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, Summit& summit) {
+std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_least, double cap) {
+  Summit summit;
   const auto room_at = [&](double v) {
     summit.up = up.exit_at(v);
     summit.down = down.exit_at(v);
@@ -33,21 +35,21 @@ bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, S
   }
   double high = std::min({up.top(), down.top(), cap});
   if (high < v_least) {
-    if (high < v_least * (1.0 - 1e-12)) {
-      return false;
+    if (high < v_least * (1.0 - kFormulaRounding)) {
+      return std::nullopt;
     }
     high = v_least;
   }
   summit.v = high;
   double f_high = room_at(high);
   if (f_high >= 0.0) {
-    return true;
+    return summit;
   }
   double low = v_least;
   double f_low = room_at(low);
   summit.v = low;
   if (f_low < 0.0) {
-    return f_low >= -kDistanceRounding;
+    return f_low >= -kDistanceRounding ? std::optional(summit) : std::nullopt;
   }
   for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
     double v = (low * f_high - high * f_low) / (f_high - f_low);
@@ -69,7 +71,7 @@ bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, S
     }
   }
   summit.v = low;
-  return room_at(low) >= 0.0;
+  return room_at(low) >= 0.0 ? std::optional(summit) : std::nullopt;
 }
 
 std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& down, double s0,

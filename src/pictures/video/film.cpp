@@ -14,7 +14,9 @@ constexpr double kPlateLine = 9.0;     // [texels] on the plate
 constexpr double kInsetLine = 2.2;     // [pixels]
 constexpr double kInsetMargin = 10.0;  // [pixels]
 
-Vec2 on_plate(const Vec2& p) { return {hal::drawing_column(p.x()), hal::drawing_row(p.y())}; }
+Vec2 on_plate(const Vec2& p) {
+  return {hal::mujoco::drawing_column(p.x()), hal::mujoco::drawing_row(p.y())};
+}
 
 /// The bounding box of the drawing, fitted into the inset.
 PenTrail make_inset(const Survey& survey, ColourScale scale, int frame_width, int frame_height) {
@@ -39,8 +41,8 @@ Film::Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width
       scale_(survey.largest_error_um),
       rows_(std::move(rows)),
       scene_(std::move(scene)),
-      plate_(Canvas(hal::kDrawingTexels, hal::kDrawingTexels, kPlate, kPlateLine), on_plate, scale_,
-             survey.pen_up),
+      plate_(Canvas(hal::mujoco::kDrawingTexels, hal::mujoco::kDrawingTexels, kPlate, kPlateLine),
+             on_plate, scale_, survey.pen_up),
       inset_(make_inset(survey, scale_, width, height)),
       width_(width),
       height_(height) {}

@@ -25,7 +25,7 @@ template <class Function>
 auto guarded(const Function& function) -> decltype(function()) {
   try {
     return function();
-  } catch (const hal::MujocoError& error) {
+  } catch (const hal::mujoco::MujocoError& error) {
     return fail(ErrorCode::kModel, std::string("MuJoCo cannot draw the scene: ") + error.what());
   }
 }

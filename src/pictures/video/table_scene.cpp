@@ -58,7 +58,8 @@ void set_quality(mjModel& model, int width, int height, int samples) {
 }  // namespace
 
 struct TableScene::Parts {
-  Parts(OffscreenContext&& gl_context, hal::ModelPtr&& loaded, hal::DataPtr&& state, int texture_id)
+  Parts(OffscreenContext&& gl_context, hal::mujoco::ModelPtr&& loaded, hal::mujoco::DataPtr&& state,
+        int texture_id)
       : context(std::move(gl_context)),
         model(std::move(loaded)),
         data(std::move(state)),
@@ -84,13 +85,13 @@ struct TableScene::Parts {
   }
 
   OffscreenContext context;  // outlives the renderer
-  hal::ModelPtr model;
-  hal::DataPtr data;
+  hal::mujoco::ModelPtr model;
+  hal::mujoco::DataPtr data;
   Scene scene;
   Renderer renderer;
   mjvCamera camera{};
   mjvOption option{};
-  hal::TablePose pose;
+  hal::mujoco::TablePose pose;
   MipTexture texture;
   mjrRect viewport;
   std::vector<unsigned char> pixels;  // as OpenGL has them, lowest row first
@@ -104,14 +105,14 @@ TableScene::~TableScene() = default;
 Expected<TableScene> TableScene::create(const std::filesystem::path& scene_xml,
                                         const std::string& camera, int width, int height,
                                         int samples) {
-  hal::install_mujoco_handlers();
-  auto model = hal::load_model(scene_xml);
+  auto model = hal::mujoco::load_model(scene_xml);
   if (!model) {
     return tl::unexpected(std::move(model.error()));
   }
-  const auto pose = hal::find_table_pose(**model);
-  const auto texture = hal::find_id(**model, mjOBJ_TEXTURE, "texture", hal::kDrawingTexture);
-  const auto camera_id = hal::find_id(**model, mjOBJ_CAMERA, "camera", camera);
+  const auto pose = hal::mujoco::find_table_pose(**model);
+  const auto texture =
+      hal::mujoco::find_id(**model, mjOBJ_TEXTURE, "texture", hal::mujoco::kDrawingTexture);
+  const auto camera_id = hal::mujoco::find_id(**model, mjOBJ_CAMERA, "camera", camera);
   for (const Error* error : {pose ? nullptr : &pose.error(), texture ? nullptr : &texture.error(),
                              camera_id ? nullptr : &camera_id.error()}) {
     if (error != nullptr) {
@@ -121,7 +122,7 @@ Expected<TableScene> TableScene::create(const std::filesystem::path& scene_xml,
     }
   }
   set_quality(**model, width, height, samples);
-  auto data = hal::make_data(**model);
+  auto data = hal::mujoco::make_data(**model);
   if (!data) {
     return tl::unexpected(std::move(data.error()));
   }
@@ -138,16 +139,17 @@ Expected<TableScene> TableScene::create(const std::filesystem::path& scene_xml,
 }
 
 void TableScene::move_to(const Vec3& position) {
-  hal::set_table_pose(parts_->pose, *parts_->data, position.x(), position.y(), position.z());
+  hal::mujoco::set_table_pose(parts_->pose, *parts_->data, position.x(), position.y(),
+                              position.z());
   mj_forward(parts_->model.get(), parts_->data.get());
 }
 
 void TableScene::set_drawing(const Image& drawing, const Rectangle& changed) {
   MipTexture& texture = parts_->texture;
   if (drawing.width() != texture.width() || drawing.height() != texture.height()) {
-    throw hal::MujocoError(fmt::format("texture {} has {} x {} texels, the drawing {} x {}",
-                                       hal::kDrawingTexture, texture.width(), texture.height(),
-                                       drawing.width(), drawing.height()));
+    throw hal::mujoco::MujocoError(fmt::format(
+        "texture {} has {} x {} texels, the drawing {} x {}", hal::mujoco::kDrawingTexture,
+        texture.width(), texture.height(), drawing.width(), drawing.height()));
   }
   texture.update(drawing, changed);
 }

@@ -12,7 +12,7 @@ namespace twin::pictures::video {
 
 /// The MJCF scene of the table, drawn offscreen. All calls from the thread that created it.
 ///
-/// Functions that call MuJoCo may throw hal::MujocoError; video.cpp turns it into an Error.
+/// Functions that call MuJoCo may throw hal::mujoco::MujocoError; renderer.cpp turns it into an Error.
 class TableScene {
  public:
   /// Loads the scene and prepares pictures of a size.

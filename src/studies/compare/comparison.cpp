@@ -19,7 +19,7 @@ struct Entry {
   std::string name() const { return is_paper() ? interpolator : planner; }
   std::vector<std::string> settings() const {
     return {fmt::format("planning.planner={}", planner),
-            fmt::format("interpolator.kind={}", interpolator)};
+            fmt::format("path.curves={}", interpolator)};
   }
 };
 
@@ -75,7 +75,7 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
                          std::vector<studies::Job>& jobs, std::vector<Fluctuation>& fluctuations) {
   for (const std::string rule : {"", "constant"}) {
     for (const std::string update : kUpdates) {
-      std::vector<std::string> settings{"planning.planner=paper", "interpolator.kind=nurbs",
+      std::vector<std::string> settings{"planning.planner=paper", "path.curves=nurbs",
                                         "interpolator.parameter_update=" + update};
       if (!rule.empty()) {
         settings.push_back("planning.feedrate_rule=" + rule);

@@ -15,7 +15,7 @@ constexpr double kHumRange = 0.5;  // of 1 / duration, about the frequency found
 }  // namespace
 
 void AxisFitter::estimate_quantum() {
-  hal::EncoderParams& encoder = current_.table.axis[problem_.axis()].encoder;
+  hal::mujoco::EncoderParams& encoder = current_.table.axis[problem_.axis()].encoder;
   const std::string key = table_section(problem_.axis()) + "encoder_um_per_count";
   FittedParameter& parameter = result(key, "encoder count");
   parameter.start = parameter.value = encoder.mm_per_count * 1e3;
@@ -39,7 +39,7 @@ void AxisFitter::estimate_gains() {
   if (!has_volts()) {
     return;
   }
-  const hal::AxisParams& axis = current_.table.axis[problem_.axis()];
+  const hal::mujoco::AxisParams& axis = current_.table.axis[problem_.axis()];
   GainFit gains = fit_gains(problem_.records(), axis.mm_per_s_per_volt(), current_.period);
   gains.gains.kp = std::max(gains.gains.kp, 0.0);
   gains.gains.kd = std::max(gains.gains.kd, 0.0);
@@ -105,7 +105,7 @@ void AxisFitter::estimate_hum() {
 
 void AxisFitter::estimate_directly() {
   estimate_quantum();
-  hal::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
+  hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
   const auto is_free = [&](const std::string& name) {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (candidates_[i].parameter.key.ends_with(name)) {

@@ -22,7 +22,8 @@ AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis) {
 
 AxisModel::AxisModel(const AxisSetup& setup, double start)
     : dac_(setup.axis.dac_bits),
-      axis_(setup.axis, setup.period / hal::steps_per_period(setup.period, setup.physics_step)),
+      axis_(setup.axis,
+            setup.period / hal::mujoco::steps_per_period(setup.period, setup.physics_step)),
       encoder_(setup.axis.encoder),
       servo_(setup.servo, setup.axis.mm_per_s_per_volt(), setup.period),
       mm_per_count_(setup.axis.encoder.mm_per_count),
@@ -30,7 +31,7 @@ AxisModel::AxisModel(const AxisSetup& setup, double start)
       force_per_torque_(1.0 / units::m_from_mm(setup.axis.mm_per_rad())),
       rate_per_force_(0.0),
       step_(0.0),
-      steps_(hal::steps_per_period(setup.period, setup.physics_step)),
+      steps_(hal::mujoco::steps_per_period(setup.period, setup.physics_step)),
       position_(start) {
   step_ = setup.period / steps_;
   rate_per_force_ = units::mm_from_m(step_ / (setup.axis.moving_mass + setup.axis.rotor_mass()));
@@ -42,7 +43,7 @@ void AxisModel::advance() noexcept {
   }
   for (int i = 0; i < steps_; ++i) {
     const double time = static_cast<double>(steps_done_++) * step_;
-    const hal::AxisForces forces =
+    const hal::mujoco::AxisForces forces =
         axis_.step({position_, velocity_, velocity_ * rad_per_mm_}, time);
     velocity_ += rate_per_force_ * (forces.slide + forces.torque * force_per_torque_);
     position_ += step_ * velocity_;

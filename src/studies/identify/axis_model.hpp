@@ -17,7 +17,7 @@ inline constexpr double kSettleTime = 0.3;
 
 /// What makes one servo axis: its mechanics and drive, and the loop around them.
 struct AxisSetup {
-  hal::AxisParams axis;
+  hal::mujoco::AxisParams axis;
   motion::Gains servo;
   double period = 0.001;       ///< interpolation period T [s]
   double physics_step = 1e-4;  ///< at most; a whole number of steps makes a period [s]
@@ -67,8 +67,8 @@ class AxisModel {
   void write(double volts) noexcept;
 
   hal::Dac dac_;
-  hal::TableAxis axis_;
-  hal::Encoder encoder_;
+  hal::mujoco::TableAxis axis_;
+  hal::mujoco::Encoder encoder_;
   motion::AxisServo servo_;
   double mm_per_count_;
   double rad_per_mm_;        // of the motor [rad/mm]

@@ -48,7 +48,8 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std:
   setup.axis.travel = kFarTravel;
   setup.axis.drive.hum_phase += hum_phase;
   if (!data.has_volts()) {
-    setup.axis.dac_bits = hal::kMaxDacBits;  // steps of a converter would make the residual rough
+    setup.axis.dac_bits =
+        hal::mujoco::kMaxDacBits;  // steps of a converter would make the residual rough
   }
   AxisModel model(setup, data.command.front().position);
   model.settle(data.command.front().position);

@@ -56,7 +56,7 @@ constexpr std::array kLines{
 /// Largest velocity loop gain that the physics step bears, with a margin [Hz].
 double most_gain(const config::MachineFile& machine) {
   const double step =
-      machine.period / hal::steps_per_period(machine.period, machine.table.physics_step);
+      machine.period / hal::mujoco::steps_per_period(machine.period, machine.table.physics_step);
   return 0.9 / (2.0 * std::numbers::pi * std::max(step, machine.table.physics_step));
 }
 

@@ -74,7 +74,7 @@ double direct_offset(const AxisProblem& problem, const config::MachineFile& mach
 }
 
 bool direct_hum(AxisProblem& problem, config::MachineFile& machine) {
-  hal::DriveParams& drive = machine.table.axis[problem.axis()].drive;
+  hal::mujoco::DriveParams& drive = machine.table.axis[problem.axis()].drive;
   drive.hum_amplitude = 0.0;
   const double highest = std::min(kHighestHum, kNyquistShare / machine.period);
   const double scale = machine.table.axis[problem.axis()].mm_per_s_per_volt();

@@ -12,15 +12,15 @@ double fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
 
-hal::TableParams with_phases_of_repeat(hal::TableParams table, int repeat) {
+hal::mujoco::TableParams with_phases_of_repeat(hal::mujoco::TableParams table, int repeat) {
   double step = 1.0;
-  for (hal::AxisParams& axis : table.axis) {
+  for (hal::mujoco::AxisParams& axis : table.axis) {
     step /= kG;
     axis.encoder.phase = fraction(axis.encoder.phase + repeat * step);
   }
   step /= kG;
   constexpr double kCycle = 2.0 * std::numbers::pi;
-  for (hal::AxisParams& axis : table.axis) {
+  for (hal::mujoco::AxisParams& axis : table.axis) {
     axis.drive.hum_phase = kCycle * fraction(axis.drive.hum_phase / kCycle + repeat * step);
   }
   return table;

@@ -10,6 +10,6 @@ namespace twin::studies::reproduce {
 /// Y encoder by k / g^2 and the hum of both axes, which hang on one mains, by k / g^3 of a cycle.
 /// These points fill the cube of phases evenly however many there are, a generalised golden-ratio
 /// sequence. Repeat 0 is the table as it is.
-hal::TableParams with_phases_of_repeat(hal::TableParams table, int repeat);
+hal::mujoco::TableParams with_phases_of_repeat(hal::mujoco::TableParams table, int repeat);
 
 }  // namespace twin::studies::reproduce

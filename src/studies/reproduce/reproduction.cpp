@@ -25,7 +25,7 @@ class Plan {
   Expected<std::size_t> add(const PublishedRow& row, const std::vector<std::string>& settings) {
     std::vector<std::string> all = request_.settings;
     all.emplace_back("planning.planner=paper");
-    all.push_back("interpolator.kind=" + row.interpolator);
+    all.push_back("path.curves=" + row.interpolator);
     all.insert(all.end(), settings.begin(), settings.end());
     const std::string key =
         fmt::format("{} {}", row.name(), fmt::join(settings.begin(), settings.end(), " "));

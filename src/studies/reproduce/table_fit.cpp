@@ -54,7 +54,7 @@ class Rows {
     studies::identify::parallel_for(rows_.size(), [&](std::size_t i) {
       MachineFile file = machine;
       std::vector<std::string> settings = rows_[i].row.settings;
-      settings.push_back("interpolator.kind=" + rows_[i].row.interpolator);
+      settings.push_back("path.curves=" + rows_[i].row.interpolator);
       if (auto set = config::apply_overrides(file, settings); !set) {
         planned[i] = tl::unexpected(set.error());
         return;

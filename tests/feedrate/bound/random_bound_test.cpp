@@ -15,6 +15,7 @@ TEST(RandomBound, NoPlanIsFasterThanItsBound) {
     for (const CurveKind curves : {CurveKind::kNurbs, CurveKind::kBezier, CurveKind::kNone}) {
       feedrate::testing::PlanSettings settings;
       settings.path.curves = curves;
+      settings.path.planner = curves == CurveKind::kNurbs ? Planner::kCertified : Planner::kPaper;
       const auto plan = feedrate::testing::plan(blocks, settings);
       EXPECT_LE(testing::bound_of(plan, settings), plan.time * (1.0 + 1e-9)) << seed;
     }

@@ -1,4 +1,4 @@
-#include "feedrate/limits/contact_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,6 +79,7 @@ double fastest(const PlannedSegment& planned) {
 
 testing::PlanSettings with_tool(double radius, ToolSide side) {
   testing::PlanSettings settings;
+  settings.path.planner = Planner::kPaper;
   settings.model.feedrate_rule = FeedrateRule::kContactSpeed;
   settings.model.tool_radius = radius;
   settings.model.tool_side = side;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "feedrate/profile/ramp_limits.hpp"
+#include "feedrate/profile/ramps.hpp"
 
 namespace twin::feedrate::testing {
 

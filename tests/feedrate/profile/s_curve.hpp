@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "feedrate/profile/ramp.hpp"
+#include "feedrate/profile/ramps.hpp"
 
 namespace twin::feedrate::testing {
 

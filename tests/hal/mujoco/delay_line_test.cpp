@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace delay_line_test {
 
 TEST(DelayLine, ValuesComeOutTheGivenNumberOfStepsLater) {
@@ -51,4 +51,4 @@ TEST(DelayLine, ClearedLineGivesZerosAgain) {
 }
 
 }  // namespace delay_line_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace drive_test {
 
 constexpr double kPi = std::numbers::pi;
@@ -165,4 +165,4 @@ TEST(Drive, BlockedMotorRaisesAnAlarmThatStaysUntilReset) {
 }
 
 }  // namespace drive_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace encoder_test {
 
 Encoder make(double mm_per_count, double phase) {
@@ -46,4 +46,4 @@ TEST(Encoder, ZeroIsWhereItWasSet) {
 }
 
 }  // namespace encoder_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

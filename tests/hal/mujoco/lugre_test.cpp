@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace lugre_test {
 
 constexpr double kStep = 1e-4;  // [s]
@@ -116,4 +116,4 @@ TEST(Lugre, WithoutCoulombFrictionOnlyTheViscousPartIsLeft) {
 }
 
 }  // namespace lugre_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

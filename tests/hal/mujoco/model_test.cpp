@@ -8,10 +8,11 @@
 #include <sstream>
 
 #include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace model_test {
 
 using ::testing::HasSubstr;
@@ -31,7 +32,7 @@ Error error_of(const std::string& mjcf) {
   TableParams params;
   params.model = file;
   MujocoMachine machine(params);
-  const Expected<void> result = machine.configure(1e-3);
+  const Expected<void> result = checked(machine.configure(1e-3));
   std::filesystem::remove(file);
   EXPECT_FALSE(result);
   if (result) {
@@ -98,9 +99,9 @@ TEST(Model, TableOfTheRepositoryHasThreeJointsAndNoGeomsInPhysics) {
 }
 
 TEST(Model, ErrorsOfMujocoBecomeExceptions) {
-  install_mujoco_handlers();
+  ASSERT_TRUE(MujocoLibrary::load());
   EXPECT_THROW(mju_error("told to fail"), MujocoError);
 }
 
 }  // namespace model_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -9,7 +9,7 @@
 #include "tests/hal/position_loop.hpp"
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace mujoco_machine_test {
 
 using testing::default_table;
@@ -34,8 +34,8 @@ Outputs volts(double x, double y) {
 TEST(MujocoMachine, OneVoltIsTheScaledSpeedOnBothAxes) {
   TableParams params = default_table();
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(0.6, -0.3), 1000, inputs);
   EXPECT_NEAR(machine.info().mm_per_s_per_volt[kX], 500.0 / 60.0 * 10.0, 1e-9);
@@ -63,8 +63,8 @@ TEST(MujocoMachine, OutputsArriveAfterTheOutputDelay) {
   params.axis[kX].drive.output_delay = 3e-3;
   params.axis[kX].drive.ready_delay = 0.0;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(1.0, 0.0), 3, inputs);
   EXPECT_EQ(machine.velocity(kX), 0.0);
@@ -76,8 +76,8 @@ TEST(MujocoMachine, RunsIntoItsSwitchStopsAndComesBack) {
   TableParams params = default_table();
   params.axis[kX].travel = 20.0;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(1.0, 0.0), 600, inputs);
   EXPECT_TRUE(inputs.limit_positive[kX]);
@@ -92,8 +92,8 @@ TEST(MujocoMachine, RunsIntoItsSwitchStopsAndComesBack) {
 
 TEST(MujocoMachine, BlockedAxisRaisesAnAlarmAndActivationClearsIt) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   machine.set_external_force(kY, 2000.0);
   pass(machine, volts(0.0, -2.0), 1000, inputs);
@@ -102,7 +102,7 @@ TEST(MujocoMachine, BlockedAxisRaisesAnAlarmAndActivationClearsIt) {
   EXPECT_FALSE(inputs.servo_ready[kY]);
   machine.set_external_force(kY, 0.0);
   machine.deactivate();
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.activate()));
   pass(machine, volts(0.0, 0.0), 100, inputs);
   EXPECT_FALSE(inputs.alarm[kY]);
   EXPECT_TRUE(inputs.servo_ready[kY]);
@@ -110,14 +110,14 @@ TEST(MujocoMachine, BlockedAxisRaisesAnAlarmAndActivationClearsIt) {
 
 TEST(MujocoMachine, CountsAndTruthStartAgainWhereItIsActivated) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(0.5, 0.5), 300, inputs);
   pass(machine, volts(0.0, 0.0), 300, inputs);
   EXPECT_GT(inputs.counts[kX], 500);
   machine.deactivate();
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.activate()));
   EXPECT_EQ(machine.truth().table_position[kX], 0.0);
   pass(machine, volts(0.0, 0.0), 1, inputs);
   EXPECT_EQ(inputs.counts[kX], 0);
@@ -125,8 +125,8 @@ TEST(MujocoMachine, CountsAndTruthStartAgainWhereItIsActivated) {
 
 TEST(MujocoMachine, DeactivatedTableCoastsToRestOnItsFriction) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(0.6, 0.6), 500, inputs);
   machine.deactivate();
@@ -140,8 +140,8 @@ TEST(MujocoMachine, DeactivatedTableCoastsToRestOnItsFriction) {
 
 TEST(MujocoMachine, PenFollowsItsReferenceWithoutOvershoot) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs = volts(0.0, 0.0);
   outputs.position_reference[2] = 15.0;
   Inputs inputs;
@@ -161,8 +161,8 @@ TEST(MujocoMachine, UnstablePhysicsIsAnErrorWithTheTimeAndWhatToDo) {
   params.axis[kX].screw.stiffness = 1e6;
   params.axis[kX].drive.velocity_gain_Hz = 100.0;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   Status status = Status::kOk;
   for (int k = 0; k < 5000 && status == Status::kOk; ++k) {
@@ -173,15 +173,15 @@ TEST(MujocoMachine, UnstablePhysicsIsAnErrorWithTheTimeAndWhatToDo) {
   EXPECT_EQ(machine.state(), State::kInactive);
   EXPECT_THAT(machine.last_error(), ::testing::HasSubstr("unstable"));
   EXPECT_THAT(machine.last_error(), ::testing::HasSubstr("table.physics_step_ms"));
-  EXPECT_FALSE(machine.activate()) << "must be configured again";
-  EXPECT_FALSE(machine.configure(1e-3) && machine.read(inputs) != Status::kOk);
+  EXPECT_FALSE(checked(machine.activate())) << "must be configured again";
+  EXPECT_FALSE(checked(machine.configure(1e-3)) && machine.read(inputs) != Status::kOk);
 }
 
 TEST(MujocoMachine, SaddleLighterThanWhatItCarriesIsRefused) {
   TableParams params = default_table();
   params.axis[kY].moving_mass = 10.0;
   MujocoMachine machine(params);
-  const auto result = machine.configure(kPeriod);
+  const auto result = checked(machine.configure(kPeriod));
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().message, ::testing::HasSubstr("table.y.moving_mass_kg"));
 }
@@ -194,7 +194,7 @@ TEST(MujocoMachine, SlidesHaveTheMassOfTheParametersWithTheRotor) {
     params.axis[kX].moving_mass = 7.0;
     params.axis[kY].moving_mass = 26.0;
     MujocoMachine machine(params);
-    ASSERT_TRUE(machine.configure(kPeriod));
+    ASSERT_TRUE(checked(machine.configure(kPeriod)));
     Inputs inputs;
     for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
       machine.set_external_force(static_cast<Axis>(axis), 10.0);
@@ -211,4 +211,4 @@ TEST(MujocoMachine, SlidesHaveTheMassOfTheParametersWithTheRotor) {
 }
 
 }  // namespace mujoco_machine_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -7,7 +7,7 @@
 #include "tests/hal/table_files.hpp"
 
 // The closed loop on the table as a whole.
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace table_accuracy_test {
 
 using namespace testing;  // NOLINT(google-build-using-namespace): helpers of this folder
@@ -66,4 +66,4 @@ TEST(TableAccuracy, ScrewThatGivesDrivesTheTableOffTheEncoderButNotFar) {
 }
 
 }  // namespace table_accuracy_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

@@ -5,7 +5,7 @@
 #include "hal/mujoco/model.hpp"
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace table_pose_test {
 
 class Scene : public ::testing::Test {
@@ -72,4 +72,4 @@ TEST_F(Scene, DrawingCoversThePlateTopAndTheWholeTravel) {
 }
 
 }  // namespace table_pose_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

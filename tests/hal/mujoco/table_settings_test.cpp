@@ -8,7 +8,7 @@
 
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal {
+namespace twin::hal::mujoco {
 namespace table_settings_test {
 
 using ::testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST(TableSettings, VelocityLoopTooFastForThePhysicsStepIsRefused) {
 }
 
 }  // namespace table_settings_test
-}  // namespace twin::hal
+}  // namespace twin::hal::mujoco

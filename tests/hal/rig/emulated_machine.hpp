@@ -12,14 +12,15 @@
 namespace twin::hal::rig::testing {
 
 /// The rig over emulated cards in lockstep; `bench` is shared with the test.
-inline std::unique_ptr<RigMachine> make_emulated(const TableParams& table,
-                                                 std::shared_ptr<EmulatedRig> bench,
+inline std::unique_ptr<RigMachine> make_emulated(const mujoco::TableParams& table,
+                                                 std::shared_ptr<emulator::EmulatedRig> bench,
                                                  const RigSettings& settings) {
-  const MachineInfo info = MujocoMachine(table).info();
-  EmulatedRig& rig = *bench;
+  const MachineInfo info = mujoco::MujocoMachine(table).info();
+  emulator::EmulatedRig& rig = *bench;
   const auto open = [&rig, settings] {
-    return RegisterCards::open(std::make_unique<EmulatedPci1716>(rig.boards().pci1716),
-                               std::make_unique<EmulatedPci1784>(rig.boards().pci1784), settings);
+    return RegisterCards::open(std::make_unique<boards::EmulatedPci1716>(rig.boards().pci1716),
+                               std::make_unique<boards::EmulatedPci1784>(rig.boards().pci1784),
+                               settings);
   };
   return std::make_unique<RigMachine>(
       settings, TableScales{info.mm_per_count, info.mm_per_s_per_volt}, open, std::move(bench));

@@ -12,9 +12,9 @@
 namespace twin::hal::rig::testing {
 
 /// A port that hands everything to another, which outlives it.
-class BorrowedPort final : public IoPort {
+class BorrowedPort final : public io_port::IoPort {
  public:
-  explicit BorrowedPort(IoPort& port) : port_(port) {}
+  explicit BorrowedPort(io_port::IoPort& port) : port_(port) {}
   std::uint8_t read8(std::uint32_t o) noexcept override { return port_.read8(o); }
   std::uint16_t read16(std::uint32_t o) noexcept override { return port_.read16(o); }
   std::uint32_t read32(std::uint32_t o) noexcept override { return port_.read32(o); }
@@ -24,7 +24,7 @@ class BorrowedPort final : public IoPort {
   int error() const noexcept override { return port_.error(); }
 
  private:
-  IoPort& port_;
+  io_port::IoPort& port_;
 };
 
 struct FakeBench final : Bench {
@@ -87,8 +87,8 @@ class FakeRig : public ::testing::Test {
   /// Active, with volts at the drives and the servos on.
   std::unique_ptr<RigMachine> running(bool with_bench = true) {
     auto machine = make(with_bench);
-    EXPECT_TRUE(machine->configure(kPeriod));
-    const auto active = machine->activate();
+    EXPECT_TRUE(checked(machine->configure(kPeriod)));
+    const auto active = checked(machine->activate());
     EXPECT_TRUE(active) << active.error().message;
     Outputs outputs;
     outputs.volts = {1.0, -2.0};

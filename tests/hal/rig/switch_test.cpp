@@ -19,7 +19,7 @@ class Switch : public ::testing::Test {
   Switch() { table.model = hal::testing::mjcf_file("xy_table.xml"); }
 
   std::unique_ptr<RigMachine> make() {
-    bench = std::make_shared<EmulatedRig>(table, settings);
+    bench = std::make_shared<emulator::EmulatedRig>(table, settings);
     return testing::make_emulated(table, bench, settings);
   }
   static Outputs outputs(int k) {
@@ -31,10 +31,10 @@ class Switch : public ::testing::Test {
   }
   // Runs both with the same motion; signs of the rig's wires are in its scales.
   void expect_same_motion() {
-    MujocoMachine simulated(table);
+    mujoco::MujocoMachine simulated(table);
     const auto rig = make();
-    ASSERT_TRUE(simulated.configure(kPeriod) && simulated.activate());
-    ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
+    ASSERT_TRUE(checked(simulated.configure(kPeriod)) && checked(simulated.activate()));
+    ASSERT_TRUE(checked(rig->configure(kPeriod)) && checked(rig->activate()));
     Inputs a, b;
     for (int k = 0; k < 2000; ++k) {
       ASSERT_EQ(simulated.read(a), Status::kOk);
@@ -56,9 +56,9 @@ class Switch : public ::testing::Test {
     }
   }
 
-  TableParams table;
+  mujoco::TableParams table;
   RigSettings settings;
-  std::shared_ptr<EmulatedRig> bench;
+  std::shared_ptr<emulator::EmulatedRig> bench;
 };
 
 TEST_F(Switch, BothMachinesGiveTheSameBitsInEveryPeriod) { expect_same_motion(); }
@@ -78,34 +78,35 @@ TEST_F(Switch, OtherPinsAndSignsAreTheSameMotion) {
 TEST_F(Switch, AnAlarmIsResetByActivationAndABrokenWireIsNot) {
   settings.alarm_reset_time = 0.01;
   const auto rig = make();
-  ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
+  ASSERT_TRUE(checked(rig->configure(kPeriod)) && checked(rig->activate()));
   Inputs inputs;
-  bench->inject({FaultKind::kAlarm, kY, 0.0});
+  bench->inject({emulator::FaultKind::kAlarm, kY, 0.0});
   ASSERT_EQ(rig->read(inputs), Status::kOk);
   EXPECT_FALSE(inputs.alarm[kX]);
   EXPECT_TRUE(inputs.alarm[kY]);
   rig->deactivate();
-  ASSERT_TRUE(rig->activate());
-  bench->inject({FaultKind::kWireBroken, kX, 0.0});
+  ASSERT_TRUE(checked(rig->activate()));
+  bench->inject({emulator::FaultKind::kWireBroken, kX, 0.0});
   ASSERT_EQ(rig->read(inputs), Status::kOk);
   EXPECT_TRUE(inputs.alarm[kX]);
   rig->deactivate();
-  const auto active = rig->activate();
+  const auto active = checked(rig->activate());
   ASSERT_FALSE(active);
   EXPECT_THAT(active.error().message, HasSubstr("axis x: the drive has an alarm"));
 }
 
 TEST_F(Switch, ACardThatVanishesIsNamed) {
-  for (const FaultKind gone : {FaultKind::kCardGone1716, FaultKind::kCardGone1784}) {
+  for (const emulator::FaultKind gone :
+       {emulator::FaultKind::kCardGone1716, emulator::FaultKind::kCardGone1784}) {
     const auto rig = make();
-    ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
+    ASSERT_TRUE(checked(rig->configure(kPeriod)) && checked(rig->activate()));
     Inputs inputs;
     ASSERT_EQ(rig->read(inputs), Status::kOk);
     bench->inject({gone, kX, 0.0});
     EXPECT_EQ(rig->read(inputs), Status::kError);
     EXPECT_THAT(rig->last_error(),
-                HasSubstr(gone == FaultKind::kCardGone1716 ? "PCI-1716" : "PCI-1784"));
-    EXPECT_FALSE(rig->activate());
+                HasSubstr(gone == emulator::FaultKind::kCardGone1716 ? "PCI-1716" : "PCI-1784"));
+    EXPECT_FALSE(checked(rig->activate()));
   }
 }
 

@@ -43,7 +43,7 @@ TEST_P(SoundTable, TripsNoMonitorWithHalfTheLimits) {
   request.machine.safety.frozen_encoder /= 2.0;
   request.machine.safety.count_step_ratio /= 2.0;
   request.machine.safety.saturation_time = 0.0;
-  hal::MujocoMachine machine(request.machine.table);
+  hal::mujoco::MujocoMachine machine(request.machine.table);
   request.hal = &machine;
   const auto result = run_program(request);
   ASSERT_TRUE(result) << to_string(result.error());

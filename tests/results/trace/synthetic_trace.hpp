@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "core/vec.hpp"
-#include "results/trace/csv_writer.hpp"
+#include "results/trace/columns.hpp"
+#include "results/trace/csv_trace.hpp"
 #include "results/trace/sample.hpp"
 
 /// A trace with closed forms behind it, for the tests of everything that reads traces.
@@ -62,19 +63,24 @@ inline results::Sample synthetic_sample(const SyntheticRun& run, double t, doubl
 inline Expected<int> write_synthetic_trace(const std::filesystem::path& directory,
                                            const SyntheticRun& run,
                                            results::Layout layout = results::Layout::kRun) {
-  auto writer = results::CsvWriter::create(directory, layout);
-  if (!writer) {
-    return tl::unexpected(writer.error());
-  }
+  std::vector<double> values;
   const int rows = static_cast<int>(std::lround(run.duration / run.period)) + 1;
   for (int k = 0; k < rows; ++k) {
     double contour_error = 0.0;
     const results::Sample sample = synthetic_sample(run, k * run.period, contour_error);
-    if (auto written = writer->write(sample, contour_error); !written) {
-      return tl::unexpected(written.error());
-    }
+    results::append_row(sample, contour_error, layout, values);
   }
-  return writer->commit().map([rows] { return rows; });
+  results::CsvTrace trace(directory);
+  if (auto error = trace.begin(results::trace_header(layout, run.period))) {
+    return tl::unexpected(*error);
+  }
+  if (auto error = trace.rows(values)) {
+    return tl::unexpected(*error);
+  }
+  if (auto error = trace.commit()) {
+    return tl::unexpected(*error);
+  }
+  return rows;
 }
 
 /// The programmed path as a polyline.

@@ -21,8 +21,8 @@ class MiswiredTable final : public hal::Machine {
   MiswiredTable() : table_(hal::testing::default_table()), info_(table_.info()) {}
 
   const hal::MachineInfo& info() const noexcept override { return info_; }
-  Expected<void> configure(double period) override { return table_.configure(period); }
-  Expected<void> activate() override { return table_.activate(); }
+  std::optional<Error> configure(double period) override { return table_.configure(period); }
+  std::optional<Error> activate() override { return table_.activate(); }
   hal::Status read(hal::Inputs& inputs) noexcept override {
     const hal::Status status = table_.read(inputs);
     inputs.counts[hal::kX] *= x_sense;
@@ -66,7 +66,7 @@ class MiswiredTable final : public hal::Machine {
   std::array<double, 2> last_volts{};
 
  private:
-  hal::MujocoMachine table_;
+  hal::mujoco::MujocoMachine table_;
 
  public:
   hal::MachineInfo info_;

@@ -36,7 +36,7 @@ class ComparisonTest : public ::testing::Test {
     request.machine_file = *config::find_machine();
     request.folder = folder.path();
     request.running.make_machine = [](const config::MachineFile&) {
-      return std::make_unique<hal::IdealMachine>();
+      return std::make_unique<hal::ideal::IdealMachine>();
     };
   }
 

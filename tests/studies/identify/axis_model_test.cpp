@@ -21,9 +21,9 @@ using Rows = std::array<std::vector<AxisRow>, hal::kServoAxes>;
 
 /// The same run on the table of MuJoCo, by the period of runtime::Cycle.
 Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPoint>& points) {
-  hal::MujocoMachine table(file.table);
-  EXPECT_TRUE(table.configure(file.period));
-  EXPECT_TRUE(table.activate());
+  hal::mujoco::MujocoMachine table(file.table);
+  EXPECT_TRUE(checked(table.configure(file.period)));
+  EXPECT_TRUE(checked(table.activate()));
   std::array<motion::AxisServo, 2> servos{
       motion::AxisServo{file.servo[0], table.info().mm_per_s_per_volt[0], file.period},
       motion::AxisServo{file.servo[1], table.info().mm_per_s_per_volt[1], file.period}};
@@ -31,7 +31,7 @@ Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPo
   hal::Inputs inputs;
   hal::Outputs outputs;
   outputs.servo_on = {true, true};
-  const long settle = std::lround(runtime::Pace{}.settle_time / file.period);
+  const long settle = std::lround(runtime::MotionOptions{}.rest_before / file.period);
   for (long k = -settle; k < static_cast<long>(points.size()); ++k) {
     EXPECT_EQ(table.read(inputs), hal::Status::kOk);
     const motion::SetPoint held;

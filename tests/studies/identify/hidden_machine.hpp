@@ -21,7 +21,7 @@ inline config::MachineFile known_machine() {
   auto read = config::read_machine_file(TWIN_SOURCE_DIR "/mjcf/xy_table.toml");
   EXPECT_TRUE(read) << (read ? "" : to_string(read.error()));
   config::MachineFile machine = read.value_or(config::MachineFile());
-  const hal::TableParams built_in;
+  const hal::mujoco::TableParams built_in;
   machine.table.axis = built_in.axis;
   machine.table.physics_step = built_in.physics_step;
   machine.path.planner = Planner::kPaper;
@@ -42,7 +42,7 @@ inline config::MachineFile hidden_machine(unsigned seed) {
     return value * (between(0.0, 1.0) < 0.5 ? between(0.5, 0.8) : between(1.2, 1.5));
   };
   config::MachineFile machine = known_machine();
-  for (hal::AxisParams& axis : machine.table.axis) {
+  for (hal::mujoco::AxisParams& axis : machine.table.axis) {
     axis.friction.coulomb = changed(axis.friction.coulomb);
     axis.friction.static_ratio = between(1.3, 2.0);
     axis.friction.stribeck_velocity = changed(axis.friction.stribeck_velocity);
@@ -70,7 +70,7 @@ inline config::MachineFile hidden_machine(unsigned seed) {
 /// Runs a program on a machine; the trace is left in the folder. @returns contour error RMS [mm]
 inline double run_on(const config::MachineFile& machine, const std::string& program,
                      const std::filesystem::path& folder) {
-  hal::MujocoMachine table(machine.table);
+  hal::mujoco::MujocoMachine table(machine.table);
   runtime::RunRequest request;
   request.program = std::string(TWIN_SOURCE_DIR "/nc_programs/") + program;
   request.machine = machine;

@@ -19,7 +19,7 @@ TEST(PublishedTables, AreReproducedByOneSetOfParameters) {
   request.repeats = 10;
   request.folder = folder.path();
   request.running.make_machine = [](const config::MachineFile& machine) {
-    return std::make_unique<hal::MujocoMachine>(machine.table);
+    return std::make_unique<hal::mujoco::MujocoMachine>(machine.table);
   };
   const auto result = reproduce(request);
   ASSERT_TRUE(result) << to_string(result.error());

@@ -12,14 +12,14 @@ namespace phases_test {
 constexpr double kCycle = 2.0 * std::numbers::pi;
 
 std::array<double, 3> phases(int repeat) {
-  const hal::TableParams table = with_phases_of_repeat(hal::TableParams{}, repeat);
+  const hal::mujoco::TableParams table = with_phases_of_repeat(hal::mujoco::TableParams{}, repeat);
   EXPECT_EQ(table.axis[0].drive.hum_phase, table.axis[1].drive.hum_phase);  // one mains
   return {table.axis[0].encoder.phase, table.axis[1].encoder.phase,
           table.axis[0].drive.hum_phase / kCycle};
 }
 
 TEST(Phases, RepeatZeroIsTheTableAsItIs) {
-  const hal::TableParams table;
+  const hal::mujoco::TableParams table;
   const auto first = phases(0);
   EXPECT_DOUBLE_EQ(first[0], table.axis[0].encoder.phase);
   EXPECT_DOUBLE_EQ(first[1], table.axis[1].encoder.phase);

@@ -33,7 +33,7 @@ class ReproductionTest : public ::testing::Test {
     request.repeats = 2;
     request.folder = folder.path();
     request.running.make_machine = [](const config::MachineFile&) {
-      return std::make_unique<hal::IdealMachine>();
+      return std::make_unique<hal::ideal::IdealMachine>();
     };
   }
 

@@ -40,7 +40,7 @@ TEST(TableRun, HasTheErrorsOfARunOnTheTableOfMujoco) {
   request.program = TWIN_SOURCE_DIR "/nc_programs/oxalis.nc";
   request.machine = machine_file();
   request.machine.path.planner = Planner::kPaper;
-  hal::MujocoMachine table(request.machine.table);
+  hal::mujoco::MujocoMachine table(request.machine.table);
   request.hal = &table;
   request.directory = folder / "out";
   const auto run = runtime::run_program(request);
@@ -73,7 +73,7 @@ Published one_row() {
 
 TEST(TableFit, FindsASetThatFitsARowBetterThanAPoorStart) {
   config::MachineFile start = machine_file();
-  for (hal::AxisParams& axis : start.table.axis) {
+  for (hal::mujoco::AxisParams& axis : start.table.axis) {
     axis.drive.hum_amplitude = 60e-3;
   }
   start.planning = PlanningModel{};

@@ -5,7 +5,7 @@
 
 #include "hal/rig/boards/emulated_pci1716.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace emulated_pci1716_test {
 
 class EmulatedPci1716Board : public ::testing::Test {
@@ -163,4 +163,4 @@ TEST_F(EmulatedPci1716Board, ClearsAreBytesOrOneWord) {
 }
 
 }  // namespace emulated_pci1716_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -6,7 +6,7 @@
 #include "hal/rig/boards/emulated_pci1784.hpp"
 #include "hal/rig/boards/running_counters.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace emulated_pci1784_test {
 
 class EmulatedPci1784Board : public ::testing::Test {
@@ -128,4 +128,4 @@ TEST_F(EmulatedPci1784Board, AnAbsentCardReadsAllOnesAndTakesNothing) {
 }
 
 }  // namespace emulated_pci1784_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

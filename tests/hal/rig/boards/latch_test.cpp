@@ -7,7 +7,7 @@
 #include "hal/rig/boards/emulated_pci1784.hpp"
 #include "hal/rig/boards/running_counters.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace latch_test {
 
 TEST(Latch, AllCountersAreOfOneInstantWhileTheyRun) {
@@ -60,4 +60,4 @@ TEST(Latch, AWriterKilledInTheMiddleLeavesWholeCountersAndBlocksNobody) {
 }
 
 }  // namespace latch_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

@@ -6,7 +6,7 @@
 
 #include "hal/rig/boards/emulated_pci1784.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace quadrature_inputs_test {
 
 class Quadrature : public ::testing::Test {
@@ -117,4 +117,4 @@ TEST_F(Quadrature, TheIndexResetsWhereItIsEnabled) {
 }
 
 }  // namespace quadrature_inputs_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

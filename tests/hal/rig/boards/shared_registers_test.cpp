@@ -12,7 +12,7 @@
 
 #include "hal/rig/boards/emulated_pci1716.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace shared_registers_test {
 
 using ::testing::HasSubstr;
@@ -169,4 +169,4 @@ TEST_F(Shared, ThereIsOneControllerAtATimeAndADeadOneGivesWay) {
 }
 
 }  // namespace shared_registers_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

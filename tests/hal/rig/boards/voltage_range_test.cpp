@@ -7,7 +7,7 @@
 
 #include "hal/dac.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::boards {
 namespace voltage_range_test {
 
 // Range codes of the converters: 0 +-5, 1 +-10, 2 0 to 5, 3 0 to 10 V.
@@ -65,4 +65,4 @@ TEST(VoltageRange, EndsOfEveryInputRange) {
 }
 
 }  // namespace voltage_range_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::boards

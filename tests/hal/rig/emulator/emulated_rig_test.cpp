@@ -9,7 +9,7 @@
 #include "rig_fixture.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace emulated_rig_test {
 
 using testing::EmulatorBench;
@@ -31,9 +31,9 @@ std::vector<double> wild_volts(unsigned seed, int periods) {
 /// Drives the machine and the boards alike and counts the periods in which they differ.
 int differing_periods(const RigSettings& wiring, double sign_x, double sign_y) {
   constexpr int kPeriods = 5000;
-  MujocoMachine machine(hal::testing::default_table());
-  EXPECT_TRUE(machine.configure(kPeriod));
-  EXPECT_TRUE(machine.activate());
+  mujoco::MujocoMachine machine(hal::testing::default_table());
+  EXPECT_TRUE(checked(machine.configure(kPeriod)));
+  EXPECT_TRUE(checked(machine.activate()));
   EmulatorBench bench(wiring);
   const std::vector<double> x = wild_volts(3, kPeriods);
   const std::vector<double> y = wild_volts(8, kPeriods);
@@ -92,7 +92,7 @@ TEST(EmulatedRig, TheCodeOfZeroVoltsIsExactlyZero) {
 }
 
 TEST(EmulatedRig, SwitchesAndAlarmsStandAtTheirInputs) {
-  TableParams table = hal::testing::default_table();
+  mujoco::TableParams table = hal::testing::default_table();
   table.axis[kX].travel = 10.0;
   EmulatorBench bench(RigSettings{}, {}, table);
   const RigSettings wiring;
@@ -203,7 +203,7 @@ TEST(EmulatedRig, TheIndexIsAtTheSamePlaceFromBothSides) {
 }
 
 TEST(EmulatedRig, FastEdgesGetLostAtASlowFilter) {
-  TableParams table = testing::quiet_table();
+  mujoco::TableParams table = testing::quiet_table();
   table.axis[kX].encoder.mm_per_count = 10.0 / 65536.0;  // 16384 pulses a revolution
   EmulatorBench bench(RigSettings{}, {}, table);
   bench.write(6.0, 0.0);  // 3000 rpm: 3.28 MHz of edges, filter 1 MHz
@@ -214,7 +214,7 @@ TEST(EmulatedRig, FastEdgesGetLostAtASlowFilter) {
 }
 
 TEST(EmulatedRig, CountsAllAtTheFastestFilter) {
-  TableParams table = testing::quiet_table();
+  mujoco::TableParams table = testing::quiet_table();
   table.axis[kX].encoder.mm_per_count = 10.0 / 65536.0;
   EmulatorBench bench(RigSettings{}, {}, table);
   bench.pci1784.write32(0x24, 0x00010003);
@@ -248,4 +248,4 @@ TEST(EmulatedRig, PowerOnStartsAgain) {
 }
 
 }  // namespace emulated_rig_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -5,7 +5,7 @@
 
 #include "rig_fixture.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace fault_effects_test {
 
 using testing::EmulatorBench;
@@ -205,4 +205,4 @@ TEST(Events, CrossingZeroIsNoRest) {
 }
 
 }  // namespace fault_effects_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -5,7 +5,7 @@
 
 #include "hal/signals.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace fault_test {
 
 using ::testing::HasSubstr;
@@ -60,4 +60,4 @@ TEST(Fault, IsAMistakeOfTheCommandLine) {
 }
 
 }  // namespace fault_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

@@ -17,9 +17,9 @@ namespace twin::hal::rig::testing {
 inline constexpr double kPeriod = 1e-3;  ///< [s]
 
 /// The table without hum.
-inline TableParams quiet_table() {
-  TableParams table = hal::testing::default_table();
-  for (AxisParams& axis : table.axis) {
+inline mujoco::TableParams quiet_table() {
+  mujoco::TableParams table = hal::testing::default_table();
+  for (mujoco::AxisParams& axis : table.axis) {
     axis.drive.hum_amplitude = 0.0;
   }
   return table;
@@ -28,8 +28,8 @@ inline TableParams quiet_table() {
 /// An emulated rig worked by raw register accesses, as a driver would.
 class EmulatorBench {
  public:
-  explicit EmulatorBench(const RigSettings& wiring = {}, std::vector<Fault> faults = {},
-                         const TableParams& table = hal::testing::default_table())
+  explicit EmulatorBench(const RigSettings& wiring = {}, std::vector<emulator::Fault> faults = {},
+                         const mujoco::TableParams& table = hal::testing::default_table())
       : wiring_(wiring),
         rig(table, wiring, std::move(faults)),
         pci1716(rig.boards().pci1716),
@@ -92,9 +92,9 @@ class EmulatorBench {
   RigSettings wiring_;
 
  public:
-  EmulatedRig rig;
-  EmulatedPci1716 pci1716;
-  EmulatedPci1784 pci1784;
+  emulator::EmulatedRig rig;
+  boards::EmulatedPci1716 pci1716;
+  boards::EmulatedPci1784 pci1784;
 };
 
 }  // namespace twin::hal::rig::testing

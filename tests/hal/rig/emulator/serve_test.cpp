@@ -17,7 +17,7 @@
 #include "hal/rig/emulator/shared_bench.hpp"
 #include "tests/hal/table_files.hpp"
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::emulator {
 namespace serve_test {
 
 using namespace std::chrono_literals;
@@ -35,10 +35,10 @@ bool wait_for(F&& is_so) {
   return false;
 }
 
-std::shared_ptr<SharedRegisters> attach(const std::string& name) {
-  std::shared_ptr<SharedRegisters> shared;
+std::shared_ptr<boards::SharedRegisters> attach(const std::string& name) {
+  std::shared_ptr<boards::SharedRegisters> shared;
   wait_for([&] {
-    auto attached = SharedRegisters::attach(name, SharedRole::kController);
+    auto attached = boards::SharedRegisters::attach(name, boards::SharedRole::kController);
     shared = attached ? std::move(*attached) : nullptr;
     return shared != nullptr;
   });
@@ -46,8 +46,8 @@ std::shared_ptr<SharedRegisters> attach(const std::string& name) {
 }
 
 /// Servo on, and a voltage to X.
-void drive_x(SharedRegisters& shared, std::uint16_t code) {
-  EmulatedPci1716 port(shared.boards().pci1716);
+void drive_x(boards::SharedRegisters& shared, std::uint16_t code) {
+  boards::EmulatedPci1716 port(shared.boards().pci1716);
   port.write16(0x0A, 0x8000);
   port.write16(0x0C, 0x8000);
   port.write16(0x0E, 0x0101);
@@ -115,7 +115,7 @@ TEST_F(Serve, TheTableMovesByItselfAsTheRegistersSay) {
   const auto shared = attach(name);
   ASSERT_NE(shared, nullptr);
   SharedBench bench(shared);
-  EmulatedPci1784 counters(shared->boards().pci1784);
+  boards::EmulatedPci1784 counters(shared->boards().pci1784);
   counters.write32(0x00, 0x193);
   drive_x(*shared, 0x9000);  // 1.25 V
   EXPECT_TRUE(wait_for([&] {
@@ -135,9 +135,9 @@ TEST_F(Serve, TheEndTakesTheCardsAwayAndTheMemoryWithThem) {
   ASSERT_NE(shared, nullptr);
   end();
   ASSERT_TRUE(result) << to_string(result.error());
-  EXPECT_EQ(EmulatedPci1716(shared->boards().pci1716).read16(0x06), 0xFFFF);
+  EXPECT_EQ(boards::EmulatedPci1716(shared->boards().pci1716).read16(0x06), 0xFFFF);
   EXPECT_FALSE(SharedBench(shared).power_on(1e-3));
-  EXPECT_FALSE(SharedRegisters::attach(name, SharedRole::kObserver));
+  EXPECT_FALSE(boards::SharedRegisters::attach(name, boards::SharedRole::kObserver));
 }
 
 TEST_F(Serve, EndsAfterItsDurationOfTheWallClock) {
@@ -199,4 +199,4 @@ TEST_F(Serve, ASecondEmulatorIsRefused) {
 }
 
 }  // namespace serve_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::emulator

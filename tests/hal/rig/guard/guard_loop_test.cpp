@@ -9,7 +9,7 @@
 #include <functional>
 #include <thread>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace guard_loop_test {
 
 using namespace std::chrono_literals;
@@ -107,4 +107,4 @@ TEST_F(GuardLoop, BeatingControllerIsLeftAlone) {
 }
 
 }  // namespace guard_loop_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

@@ -14,7 +14,7 @@
 #include "tests/support/temp_folder.hpp"
 
 // The guard as the program it is. Its card is an ordinary file in place of a sysfs resource.
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace guard_process_test {
 
 using namespace std::chrono_literals;
@@ -141,4 +141,4 @@ TEST_F(GuardProcessTest, ProgramThatIsMissingIsSaid) {
 }
 
 }  // namespace guard_process_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

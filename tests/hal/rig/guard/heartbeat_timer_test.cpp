@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace twin::hal::rig {
+namespace twin::hal::rig::guard {
 namespace heartbeat_timer_test {
 
 using namespace std::chrono_literals;
@@ -39,4 +39,4 @@ TEST(HeartbeatTimer, CountThatWrapsIsABeat) {
 }
 
 }  // namespace heartbeat_timer_test
-}  // namespace twin::hal::rig
+}  // namespace twin::hal::rig::guard

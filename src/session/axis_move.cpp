@@ -1,0 +1,31 @@
+#include "session/axis_move.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/atomic_file.hpp"
+#include "core/units.hpp"
+#include "session/results.hpp"
+
+namespace twin::session {
+
+Expected<runtime::RunResult> make_axis_move(const AxisMove& move,
+                                            const config::MachineFile& machine, hal::Machine& hal,
+                                            const std::atomic<bool>& stop) {
+  Request request;
+  request.folder = result_folder(move.folder, "rig_" + move.name);
+  const std::filesystem::path program = request.folder / (move.name + ".nc");
+  request.program = program.string();
+  request.machine = machine;
+  request.hal = &hal;
+  request.until = move.until;
+  TWIN_CHECK(prepare_output_file(program));
+  TWIN_CHECK(write_whole_file(
+      program, fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == hal::kX ? 'X' : 'Y',
+                           move.distance, units::mm_per_min_from_mm_per_s(move.feedrate))));
+  TWIN_TRY(Session session, Session::open(std::move(request)));
+  return session.run({.stop = &stop});
+}
+
+}  // namespace twin::session

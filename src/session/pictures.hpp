@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/error.hpp"
+
+/// Figures and video, made from the trace that a run has left in a folder.
+namespace twin::session {
+
+/// What is in the trace of a folder.
+enum class TraceKind {
+  kRun,   ///< a machine has moved
+  kPlan,  ///< there are set points alone
+};
+
+/// What summary.json says of the trace beside it.
+struct TraceOrigin {
+  std::string program;  ///< file name of the NC program
+  TraceKind kind = TraceKind::kRun;
+};
+
+/// Reads the summary in the folder of a run.
+Expected<TraceOrigin> read_origin(const std::filesystem::path& folder);
+
+/// What the figures of a folder are drawn from.
+struct FigureRequest {
+  std::filesystem::path folder;   ///< holds trace.csv; the figures go to its folder plots
+  std::filesystem::path program;  ///< NC program; empty: the programmed path is not drawn
+  std::string title;              ///< above each figure
+  TraceKind kind = TraceKind::kRun;
+};
+
+/// Draws the figures of a trace.
+Expected<void> draw_figures(const FigureRequest& request);
+
+/// What the video of a folder is rendered from.
+struct VideoRequest {
+  std::filesystem::path folder;            ///< holds trace.csv; video.mp4 goes beside it
+  std::filesystem::path model;             ///< MJCF file of the table; scene.xml is beside it
+  std::string title;                       ///< first line of the read-out
+  std::string camera = "iso";              ///< camera of the scene: "iso" or "top"
+  std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; may be empty
+};
+
+/// Renders the video of a trace.
+Expected<void> render_video(const VideoRequest& request);
+
+}  // namespace twin::session

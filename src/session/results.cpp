@@ -1,0 +1,51 @@
+#include "session/results.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "core/atomic_file.hpp"
+#include "results/metrics/summary.hpp"
+
+namespace twin::session {
+
+Expected<void> prepare_output_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (file.has_parent_path()) {
+    std::filesystem::create_directories(file.parent_path(), error);
+  }
+  if (error) {
+    return file_error(file.parent_path(), "make this folder", error.value());
+  }
+  const auto existing = std::filesystem::status(file, error);
+  if (std::filesystem::exists(existing) && !std::filesystem::is_regular_file(existing)) {
+    return tl::unexpected(Error{
+        ErrorCode::kFile, "there is something else than a file of this name", file.string(), 0, 0});
+  }
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (::access(folder.c_str(), W_OK) != 0) {
+    return file_error(folder, "write into this folder", errno);
+  }
+  return {};
+}
+
+std::filesystem::path result_folder(const std::filesystem::path& chosen,
+                                    const std::filesystem::path& name) {
+  return chosen.empty() ? "renders" / name : chosen;
+}
+
+Expected<void> write_summary(const std::filesystem::path& folder,
+                             const runtime::RunResult& result) {
+  return write_whole_file(folder / (result.failure ? "summary.partial.json" : "summary.json"),
+                          results::to_json(result.summary));
+}
+
+void remove_stale_results(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"video.mp4", "trace.partial.csv", "summary.partial.json"}) {
+    std::filesystem::remove(folder / name, ignored);
+  }
+}
+
+}  // namespace twin::session

@@ -1,0 +1,79 @@
+#include "session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "config/find_file.hpp"
+#include "core/units.hpp"
+#include "runtime/program_bound.hpp"
+#include "session/results.hpp"
+
+namespace twin::session {
+
+Session::Session(Request request, std::filesystem::path program, std::unique_ptr<hal::Machine> made)
+    : request_(std::move(request)),
+      program_(std::move(program)),
+      made_(std::move(made)),
+      hal_(made_ ? made_.get() : request_.hal) {
+  request_.folder = result_folder(request_.folder, program_.stem());
+}
+
+Expected<Session> Session::open(Request request) {
+  TWIN_TRY(std::filesystem::path program, config::find_program(request.program));
+  std::unique_ptr<hal::Machine> made;
+  if (request.hal == nullptr && request.make_machine) {
+    TWIN_TRY(made, request.make_machine(request.machine, "run " + program.filename().string()));
+  }
+  return Session(std::move(request), std::move(program), std::move(made));
+}
+
+bool Session::is_on_wall_clock() const noexcept {
+  return request_.pace == Pace::kWallClock || (hal_ != nullptr && hal_->info().keeps_own_time);
+}
+
+std::string Session::title() const {
+  const std::string name = program_.filename().string();
+  return request_.feedrate ? fmt::format("{}, {:g} mm/min", name,
+                                         units::mm_per_min_from_mm_per_s(*request_.feedrate))
+                           : name;
+}
+
+Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
+  runtime::RunRequest run;
+  run.program = program_;
+  run.machine = request_.machine;
+  run.hal = hal_;
+  run.feedrate = request_.feedrate;
+  run.directory = request_.folder;
+  run.is_wall_clock = is_on_wall_clock();
+  run.overrides = request_.overrides;
+  run.until = request_.until;
+  run.stop = attendance.stop;
+  run.panel = attendance.panel;
+  run.progress = attendance.progress;
+  run.estimated = attendance.estimated;
+  TWIN_TRY(runtime::RunResult result, runtime::run_program(run));
+  if (request_.has_bound && !result.failure) {
+    TWIN_TRY(result.summary.time_bound,
+             runtime::time_bound(program_, request_.machine, request_.feedrate));
+  }
+  TWIN_CHECK(write_summary(request_.folder, result));
+  if (!result.failure) {
+    remove_stale_results(request_.folder);
+  }
+  return result;
+}
+
+Expected<void> Session::draw_figures() const {
+  return session::draw_figures(
+      {request_.folder, program_, title(), hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun});
+}
+
+Expected<void> Session::render_video(const std::string& camera,
+                                     std::function<void(double)> progress) const {
+  return session::render_video(
+      {request_.folder, request_.machine.table.model, title(), camera, std::move(progress)});
+}
+
+}  // namespace twin::session

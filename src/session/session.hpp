@@ -1,0 +1,101 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/machine_file.hpp"
+#include "core/error.hpp"
+#include "hal/machine.hpp"
+#include "runtime/operator_panel.hpp"
+#include "runtime/override_schedule.hpp"
+#include "runtime/run.hpp"
+#include "session/machine.hpp"
+#include "session/pictures.hpp"
+
+/// One program on one machine, from the machine file to the pictures. Command line, studies and
+/// other programs share this; nothing here prints.
+namespace twin::session {
+
+/// What the clock of a run is.
+enum class Pace {
+  kOwn,        ///< simulated time, or the wall clock where the machine keeps its own time
+  kWallClock,  ///< the wall clock in any case
+};
+
+/// What is to be run.
+///
+/// The machine is `hal`; where that is null, `make_machine` makes it; where that is empty too, the
+/// program is planned and nothing moves.
+struct Request {
+  std::string program;  ///< NC program: a path, or a name in nc_programs
+  config::MachineFile machine;
+  hal::Machine* hal = nullptr;     ///< unconfigured; outlives the session
+  MakeMachine make_machine{};      ///< called by Session::open
+  std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
+  std::filesystem::path folder;    ///< of the results; empty: renders/NAME of the program
+  Pace pace = Pace::kOwn;
+  std::vector<runtime::OverrideChange> overrides{};  ///< of the feedrate, while it moves
+  runtime::Until until{};                            ///< ends the motion early
+  bool has_bound = false;  ///< the summary gets the lower bound of the time as well
+};
+
+/// What accompanies a run while it is under way. All members may stay empty.
+struct Attendance {
+  const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
+  runtime::OperatorPanel* panel = nullptr;  ///< for override and hold by an operator
+  std::function<void(double)> progress{};   ///< gets the done share, 0 to 1
+  std::function<void(double)> estimated{};  ///< gets the cycle time before anything moves [s]
+};
+
+/// A program and its machine, ready to run.
+///
+///   open()           finds the program and makes the machine
+///   run()            plans, moves, writes trace.csv and summary.json
+///   draw_figures()   draws the plots of the trace
+///   render_video()   renders video.mp4 from the trace
+class Session {
+ public:
+  static Expected<Session> open(Request request);
+
+  const std::filesystem::path& program() const noexcept { return program_; }
+  const config::MachineFile& machine() const noexcept { return request_.machine; }
+  const std::filesystem::path& folder() const noexcept { return request_.folder; }
+  /// The machine that moves; null for a plan.
+  hal::Machine* hal() const noexcept { return hal_; }
+  /// Whether each period of the cycle takes a period of the wall clock.
+  bool is_on_wall_clock() const noexcept;
+  /// Title of the pictures: "dolphin.nc, 3000 mm/min".
+  std::string title() const;
+
+  /// Runs the program, bounds its time if asked for, and writes the summary. After a whole run
+  /// files of earlier runs that it does not replace are removed.
+  ///
+  /// @returns what was recorded, whose `failure` says why a run ended early; an error where it
+  /// could not be begun or its files could not be written
+  Expected<runtime::RunResult> run(const Attendance& attendance = {});
+
+  /// Draws the figures of the trace that run() has left.
+  Expected<void> draw_figures() const;
+
+  /// Renders the video of the trace that run() has left.
+  ///
+  /// @param camera    camera of the scene: "iso" or "top"
+  /// @param progress  gets the done share, 0 to 1; may be empty
+  Expected<void> render_video(const std::string& camera = "iso",
+                              std::function<void(double)> progress = {}) const;
+
+ private:
+  Session(Request request, std::filesystem::path program, std::unique_ptr<hal::Machine> made);
+
+  Request request_;
+  std::filesystem::path program_;
+  std::unique_ptr<hal::Machine> made_;
+  hal::Machine* hal_;
+};
+
+}  // namespace twin::session
