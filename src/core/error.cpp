@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace twin {
 
 std::string to_string(const Error& error) {
@@ -16,5 +18,8 @@ std::string to_string(const Error& error) {
 }
 
 int exit_status(const Error& error) noexcept { return error.code == ErrorCode::kUsage ? 2 : 1; }
+
+Failure::Failure(Error error)
+    : std::runtime_error(to_string(error)), error_(std::make_shared<Error>(std::move(error))) {}
 
 }  // namespace twin

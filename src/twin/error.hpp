@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+
+#include "twin/export.hpp"
 
 namespace twin {
 
@@ -25,9 +28,19 @@ struct Error {
 };
 
 /// "file:line:column: message", leaving out what is not known.
-std::string to_string(const Error& error);
+TWIN_EXPORT std::string to_string(const Error& error);
 
 /// Exit status of the process for an error: 2 for bad usage, else 1.
-int exit_status(const Error& error) noexcept;
+TWIN_EXPORT int exit_status(const Error& error) noexcept;
+
+/// The exception that the functions of <twin/...> throw. Its what() is to_string(error()).
+class TWIN_EXPORT Failure : public std::runtime_error {
+ public:
+  explicit Failure(Error error);
+  const Error& error() const noexcept { return *error_; }
+
+ private:
+  std::shared_ptr<const Error> error_;  // shared, so that copying an exception cannot fail
+};
 
 }  // namespace twin

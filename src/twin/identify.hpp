@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "twin/export.hpp"
+#include "twin/settings.hpp"
+
+namespace twin {
+
+/// How a machine is identified.
+struct IdentifyOptions {
+  /// Which columns of the traces are which signal, "SIGNAL=COLUMN[:UNIT],..." as --columns has it;
+  /// empty: those of trace.csv.
+  std::string columns{};
+  std::vector<std::string> fixed{};  ///< keys that keep the value they have
+  std::vector<std::string> freed{};  ///< keys that are fitted though they would be held
+  std::size_t evaluations = 0;       ///< simulations of the global search; 0: as many as usual
+  std::uint32_t seed = 1;            ///< of the global search; the same seed gives the same result
+  std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; may be empty
+};
+
+/// What recordings say of a machine.
+struct Identification {
+  Settings settings;  ///< those of the start with everything that was identified
+  std::string toml;   ///< the same as a machine file that says where each value is from
+  std::string table;  ///< what `twin identify` prints
+  std::string json;   ///< parameters, predictions and verdicts as identify.json has them
+  std::vector<std::string> notes;  ///< what was noticed and let pass
+};
+
+/// Fits a machine's parameters to traces recorded on it.
+///
+/// @param traces  CSV files with even time, set points and measured positions
+/// @param start   settings that the search begins at, and that what is not identified keeps
+/// @throws Failure if a trace cannot be read or cannot be what it claims to be
+TWIN_EXPORT Identification identify(const std::vector<std::string>& traces, const Settings& start,
+                                    const IdentifyOptions& options = {});
+
+}  // namespace twin
