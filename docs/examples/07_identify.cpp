@@ -12,14 +12,15 @@ int main() {
   twin::Settings hidden;
   hidden.set("table.x.coulomb_friction_N", 14.0);
   const auto table = twin::make_table(hidden);
-  const twin::Run run = twin::run(twin::Program::from_file("identify.nc"), hidden, *table,
-                                  {.folder = folder.string()});
+  const twin::Program program = twin::Program::from_text(
+      "G21 G90\nG1 X30 F4500\nX0\nX20 F900\nX12\nX14 F120\nX10\nX0 F3000\nM30\n");
+  const twin::Run run = twin::run(program, hidden, *table, {.folder = folder.string()});
   if (run.failure) {
     std::printf("failed: %s\n", to_string(*run.failure).c_str());
     return 1;
   }
   const twin::Identification found =
-      twin::identify({(folder / "trace.csv").string()}, twin::Settings(), {.evaluations = 60});
+      twin::identify({(folder / "trace.csv").string()}, twin::Settings(), {.evaluations = 40});
   std::printf("%s\n", found.table.c_str());
   std::printf("Coulomb friction of x: %.1f N\n",
               found.settings.number("table.x.coulomb_friction_N"));

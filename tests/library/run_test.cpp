@@ -114,16 +114,36 @@ TEST(Run, OverridesAtTimesChangeTheTime) {
   EXPECT_GT(time({{0.0, 50.0}}), 1.8 * time({}));
 }
 
-TEST(Run, TheOperatorMayStopIt) {
+TEST(Run, TheOperatorMayStopItOnThePath) {
   Panel panel;
-  panel.stop();
+  const std::jthread person([&panel] {
+    while (panel.display().state != Panel::State::kMoving) {
+      std::this_thread::yield();
+    }
+    panel.stop();
+  });
   MemoryTrace trace;
   const twin::Run result =
       run(Program::from_text("G21 G90\nG1 X60 F60\nM30\n"), Settings(), *make_ideal(),
           {.sinks = {&trace}, .is_wall_clock = true, .panel = &panel});
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->code, ErrorCode::kInterrupted);
+  EXPECT_GT(trace.size(), 0U);
   EXPECT_FALSE(trace.is_complete());
+}
+
+TEST(Run, AStopBeforeItBeginsIsAFailureAndNothingMoves) {
+  Panel panel;
+  panel.stop();
+  MemoryTrace trace;
+  try {
+    run(Program::from_text(kTriangle), Settings(), *make_ideal(),
+        {.sinks = {&trace}, .panel = &panel});
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.error().code, ErrorCode::kInterrupted);
+  }
+  EXPECT_EQ(trace.size(), 0U);
 }
 
 /// A sink that takes a number of rows and then fails.
