@@ -2,7 +2,6 @@
 
 #include "cli/commands.hpp"
 #include "config/find_file.hpp"
-#include "runtime/cycle_time.hpp"
 #include "runtime/program_check.hpp"
 
 namespace twin::cli {
@@ -16,21 +15,16 @@ Expected<void> check_one(const std::string& name, const config::MachineFile& mac
   }
   gcode::ReaderOptions reading;
   reading.feedrate = feedrate_of(options);
-  auto figures = runtime::check_program(*program, reading, machine.limits);
-  if (!figures) {
-    return tl::unexpected(figures.error());
-  }
-  const auto plan = runtime::estimate_plan(*program, reading, machine, &stop);
-  if (!plan) {
-    return tl::unexpected(plan.error());
-  }
+  TWIN_TRY(const runtime::Estimate estimate,
+           runtime::estimate_program(*program, reading, machine, &stop));
   if (!options.quiet) {
+    const runtime::ProgramFigures& figures = estimate.program;
     fmt::print(
         "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
         "cycle time {:.3f} s\n",
-        program->string(), figures->blocks, figures->length, figures->box_min.x(),
-        figures->box_max.x(), figures->box_min.y(), figures->box_max.y(), figures->box_min.z(),
-        figures->box_max.z(), plan->time);
+        program->string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
+        figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
+        estimate.plan.time);
   }
   return {};
 }

@@ -57,8 +57,8 @@ Expected<SenseRun> run_sense(const CircleTest& test, studies::circular::Sense se
   request.is_wall_clock = (*hal)->info().keeps_own_time;
   request.directory = test.folder / name;
   request.stop = &stop;
-  if (auto written = write_whole_file(
-          request.program, studies::circular::circle_program(test.radius, test.feedrate, sense));
+  if (auto written = write_whole_file(request.program.file, studies::circular::circle_program(
+                                                                test.radius, test.feedrate, sense));
       !written) {
     return tl::unexpected(written.error());
   }

@@ -5,10 +5,10 @@
 
 #include "feedrate/certified/certified_limits.hpp"
 #include "feedrate/certified/glide_planner.hpp"
-#include "feedrate/limits/corner_limit.hpp"
-#include "feedrate/limits/segment_limits.hpp"
+#include "feedrate/limits/corners.hpp"
+#include "feedrate/limits/zones.hpp"
 #include "feedrate/paper/hump_planner.hpp"
-#include "feedrate/profile/ramp.hpp"
+#include "feedrate/profile/ramps.hpp"
 #include "feedrate/tolerances.hpp"
 #include "path/path_builder.hpp"
 #include "path/smooth_builder.hpp"
@@ -97,7 +97,7 @@ bool WindowPlanner::plan(Window& window, Tail tail) {
 }
 
 bool raise_limits(Window& window, double last, const RampLimits& ramp) {
-  const Knot& start = window.start;
+  const Anchor& start = window.start;
   const double to = std::min(last, start.s + longest_descent(start.v, start.v, ramp));
   bool is_raised = false;
   for (LimitZone& zone : window.zones) {

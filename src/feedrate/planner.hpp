@@ -7,10 +7,9 @@
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
-#include "feedrate/limits/limit_zone.hpp"
-#include "feedrate/paper/hump.hpp"
-#include "feedrate/profile/phase.hpp"
-#include "feedrate/profile/ramp_limits.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/phases.hpp"
+#include "feedrate/profile/ramps.hpp"
 #include "path/builder.hpp"
 #include "path/segment.hpp"
 
@@ -29,7 +28,7 @@ struct Window {
   double length = 0.0;           ///< of all segments together [mm]
   double fastest = 0.0;          ///< highest feedrate that was asked for so far [mm/s]
   std::vector<LimitZone> zones;  ///< limits of the whole window, in path order
-  Knot start;                    ///< up to this place the feedrate is final
+  Anchor start;                  ///< up to this place the feedrate is final
   std::vector<Phase> phases;     ///< final, and not yet handed on
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "feedrate/profile/ramp.hpp"
+#include "feedrate/profile/ramps.hpp"
 
 namespace twin::feedrate {
 

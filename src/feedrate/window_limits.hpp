@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/limits.hpp"
-#include "feedrate/limits/junction_limits.hpp"
+#include "feedrate/limits/corners.hpp"
 #include "feedrate/planner.hpp"
 #include "path/segment.hpp"
 

@@ -10,7 +10,9 @@
 namespace twin::path {
 namespace {
 
-constexpr std::size_t kJointPoints = 6;  // points on either side that settle a joint
+/// Points on either side of a joint that decide its derivatives. The effect of the farthest is
+/// 0.27^6 of that of the nearest, 0.04 %. Each further point delays the curve by a block.
+constexpr std::size_t kJointPoints = 6;
 
 }  // namespace
 

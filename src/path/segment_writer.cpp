@@ -8,9 +8,11 @@
 namespace twin::path {
 namespace {
 
-constexpr std::size_t kMostSpans = 32;  // of a curve
-constexpr double kSame = 1e-4;          // block ends this near to a segment's end are at it [mm]
-constexpr double kStraight = 1e-6;      // turn that is none [rad]
+/// Most spans of a curve. Longer curves are fewer segments, but a segment leaves for the planner as
+/// a whole, so twice as many spans double what waits.
+constexpr std::size_t kMostSpans = 32;
+constexpr double kSame = 1e-4;      // block ends this near to a segment's end are at it [mm]
+constexpr double kStraight = 1e-6;  // turn that is none [rad]
 
 }  // namespace
 

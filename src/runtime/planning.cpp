@@ -9,7 +9,6 @@
 #include "feedrate/planner.hpp"
 
 namespace twin::runtime {
-
 namespace {
 
 /// Non-empty spans of a curve.
@@ -45,8 +44,10 @@ void count(const path::Segment& segment, double short_block_length, PlanFigures&
   }
 }
 
-Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
-                                   const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
+Expected<PlanFigures> plan_program(
+    gcode::Reader& reader, const config::MachineFile& machine,
+    const std::function<bool(feedrate::PlannedSegment&&)>& sink,
+    const std::function<Expected<void>(const gcode::Block&)>& inspect) {
   PlanFigures figures;
   bool goes_on = true;
   feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path, machine.period,
@@ -63,15 +64,15 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
     look_ahead.push(std::move(segment));
   });
   while (goes_on) {
-    auto block = reader.next();
+    TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
     if (!block) {
-      return tl::unexpected(block.error());
-    }
-    if (!block->has_value()) {
       break;
     }
-    figures.blocks += (*block)->motion == gcode::Motion::kDwell ? 0 : 1;
-    builder->push(**block);
+    if (inspect) {
+      TWIN_CHECK(inspect(*block));
+    }
+    figures.blocks += block->motion == gcode::Motion::kDwell ? 0 : 1;
+    builder->push(*block);
   }
   if (goes_on) {
     builder->finish();

@@ -9,16 +9,15 @@
 
 namespace twin::runtime {
 
-Expected<Recorder> Recorder::create(const Options& options) {
-  TWIN_TRY(gcode::Reader reader, gcode::Reader::open(options.program.string(), options.reader));
-  Recorder recorder(options, std::move(reader));
+Expected<Recorder> Recorder::create(const Options& options, BlockSource blocks) {
+  Recorder recorder(options, std::move(blocks));
   TWIN_CHECK(recorder.begin());
   return recorder;
 }
 
-Recorder::Recorder(const Options& options, gcode::Reader&& reader)
+Recorder::Recorder(const Options& options, BlockSource blocks)
     : options_(options),
-      reader_(std::move(reader)),
+      blocks_(std::move(blocks)),
       layout_(options.has_machine ? results::Layout::kRun : results::Layout::kPlan),
       in_space_(results::View::kSpace),
       along_z_(results::View::kAlongZ),
@@ -46,20 +45,20 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
     return in_space_.is_ready(block) && (!options_.has_machine || along_z_.is_ready(block));
   };
   while (!program_ended_ && !is_ready()) {
-    TWIN_TRY(const std::optional<gcode::Block> block_read, reader_.next());
-    if (!block_read) {
+    TWIN_TRY(const std::optional<gcode::Block> next, blocks_());
+    if (!next) {
       program_ended_ = true;
       break;
     }
-    in_space_.add(*block_read);
+    in_space_.add(*next);
     if (options_.has_machine) {
-      along_z_.add(*block_read);
+      along_z_.add(*next);
     }
   }
   return {};
 }
 
-Expected<void> Recorder::take(const results::Sample& sample) {
+Expected<void> Recorder::record(const results::Sample& sample) {
   TWIN_CHECK(read_ahead(sample.block));
   in_space_.follow(sample.block, sample.command);
   command_error_.add(in_space_.nearest(sample.command).distance);

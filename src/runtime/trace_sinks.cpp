@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "runtime/thrown.hpp"
+#include "runtime/run_errors.hpp"
 
 namespace twin::runtime {
 namespace {

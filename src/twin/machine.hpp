@@ -7,6 +7,7 @@
 #include <string>
 
 #include "twin/error.hpp"
+#include "twin/export.hpp"
 
 /// The seam between controller and plant: the signals at its wires as plain structs, and a machine.
 namespace twin {
@@ -76,7 +77,7 @@ struct MachineInfo {
 /// of time passes inside read(); for a real one it passes on the wall clock.
 ///
 /// configure() and activate() return nothing, or why not.
-class Machine {
+class TWIN_EXPORT Machine {
  public:
   Machine() = default;
   Machine(const Machine&) = delete;

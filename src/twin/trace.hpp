@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "twin/error.hpp"
+#include "twin/export.hpp"
 
 namespace twin {
 
@@ -37,7 +39,7 @@ struct TraceHeader {
 /// An error that a call returns, or an exception that it throws, brakes the machine on the path and
 /// ends the run; after begin() a run always ends with commit() or abandon(), also when the sink has
 /// failed.
-class TraceSink {
+class TWIN_EXPORT TraceSink {
  public:
   TraceSink() = default;
   TraceSink(const TraceSink&) = delete;
@@ -55,7 +57,7 @@ class TraceSink {
 };
 
 /// A trace in memory, its columns by name.
-class MemoryTrace final : public TraceSink {
+class TWIN_EXPORT MemoryTrace final : public TraceSink {
  public:
   std::optional<Error> begin(const TraceHeader& header) override;
   std::optional<Error> rows(std::span<const double> values) override;
@@ -78,6 +80,25 @@ class MemoryTrace final : public TraceSink {
   TraceHeader header_;
   std::vector<std::vector<double>> columns_;
   bool is_complete_ = false;
+};
+
+/// A trace as the file FOLDER/trace.csv, byte for byte that of `twin run`.
+///
+/// While the run goes on the rows are in FOLDER/trace.partial.csv; there they stay when it fails.
+class TWIN_EXPORT CsvTrace final : public TraceSink {
+ public:
+  /// @param folder  made when the run begins, if it is missing
+  explicit CsvTrace(const std::string& folder);
+  ~CsvTrace() override;
+
+  std::optional<Error> begin(const TraceHeader& header) override;
+  std::optional<Error> rows(std::span<const double> values) override;
+  std::optional<Error> commit() override;
+  void abandon() noexcept override;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
 };
 
 }  // namespace twin

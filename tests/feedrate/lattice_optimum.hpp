@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "feedrate/limits/limit_zone.hpp"
-#include "feedrate/profile/ramp_limits.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/ramps.hpp"
 
 namespace twin::test {
 

@@ -132,7 +132,7 @@ TEST(LookAhead, ARepeatedFeedrateChangesNothingAndAChangedOneIsKeptFromTheBorder
 }
 
 TEST(LookAhead, RampToACornerMayBeLongerThanTheRampToRest) {
-  // From 90 mm/s to 30 mm/s with no acceleration takes 4.16 mm, to rest only 3.82 mm: a knot that
+  // From 90 mm/s to 30 mm/s with no acceleration takes 4.16 mm, to rest only 3.82 mm: a anchor that
   // can just stop before the window's end is too late for a corner there.
   for (const double piece : {0.1, 0.2, 0.4, 0.6}) {
     std::vector<path::Segment> segments{

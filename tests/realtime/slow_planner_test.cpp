@@ -9,8 +9,9 @@
 #include <thread>
 
 #include "runtime/motion.hpp"
-#include "runtime/program_planner.hpp"
+#include "runtime/planning_loop.hpp"
 #include "tests/support/fake_machine.hpp"
+#include "tests/support/planned.hpp"
 #include "tests/support/trace_rows.hpp"
 
 // On the wall clock the machine waits for nothing. A planner that falls behind makes it brake on
@@ -104,21 +105,22 @@ struct SlowRun {
   }
 
   MotionEnd run(const std::function<void(std::int64_t)>& before_segment, SampleQueue& to) {
-    auto reader = gcode::Reader::from_text(circle_in_arcs(), "text");
     const std::jthread planning([&] {
-      ProgramPlanner planner(reader, machine_file, segments, &link);
-      planner.before_segment = before_segment;
-      EXPECT_TRUE(planner.run());
-      link.break_off();
+      ProgramPlanner planner(test::blocks_of(circle_in_arcs()), machine_file,
+                             ProgramPlanner::Replans::kOnRequest);
+      PlanningLoop loop(planner, segments, link, machine_file.path.look_ahead);
+      loop.before_segment = before_segment;
+      EXPECT_TRUE(loop.run());
     });
-    Pace pace;
-    pace.is_wall_clock = true;
-    pace.settle_time = 0.01;
-    pace.realtime.max_late_periods = 1000000;  // however busy the computer is
-    pace.realtime.max_stall = 1000.0;
-    pace.feed = &feed;
+    WallClockPace::Options options;
+    options.realtime.max_late_periods = 1000000;  // however busy the computer is
+    options.realtime.max_stall = 1000.0;
+    MonotonicClock clock;
+    WallClockPace pace(segments, clock, options);
     const MotionEnd end =
-        run_motion(cycle, interpolator, segments, to, machine_file.limits, pace, stop).end;
+        run_motion(cycle, interpolator, segments, to, pace,
+                   {.rest_before = 0.01, .limits = machine_file.limits, .feed = &feed}, stop)
+            .end;
     segments.stop();
     return end;
   }
@@ -146,11 +148,11 @@ struct SlowRun {
                    segments,
                    link,
                    panel,
-                   {{},
-                    {machine_file.limits.acceleration, machine_file.limits.jerk},
-                    1e-3,
-                    true,
-                    machine_file.limits.feedrate}};
+                   {.schedule = {},
+                    .ramp = {machine_file.limits.acceleration, machine_file.limits.jerk},
+                    .period = 1e-3,
+                    .is_wall_clock = true,
+                    .feedrate = machine_file.limits.feedrate}};
   test::FakeMachine machine;
   Progress progress{machine};
   Cycle cycle{interpolator, &machine, gains, 1e-3};

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "feedrate/limits/limit_zone.hpp"
-#include "feedrate/profile/phase.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/phases.hpp"
 
 namespace twin::test {
 

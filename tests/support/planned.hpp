@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gcode/reader.hpp"
+#include "runtime/inline_planning.hpp"
 #include "runtime/planning.hpp"
+#include "runtime/program_planner.hpp"
 
 namespace twin::test {
 
@@ -23,5 +26,25 @@ inline std::vector<feedrate::PlannedSegment> plan_text(const std::string& text,
   EXPECT_TRUE(figures) << (figures ? "" : to_string(figures.error()));
   return planned;
 }
+
+/// The blocks of a program's text.
+inline runtime::BlockSource blocks_of(const std::string& text) {
+  auto reader = std::make_shared<gcode::Reader>(gcode::Reader::from_text(text, "text"));
+  return [reader] { return reader->next(); };
+}
+
+/// A program's text, planned when the motion asks for it.
+struct InlinePlan {
+  using Replans = runtime::ProgramPlanner::Replans;
+  explicit InlinePlan(const std::string& text, const config::MachineFile& machine = {},
+                      Replans replans = Replans::kNever, double percent = 100.0)
+      : file(machine),
+        planner(blocks_of(text), file, replans, percent),
+        planning(planner, static_cast<std::size_t>(file.path.look_ahead)) {}
+
+  config::MachineFile file;
+  runtime::ProgramPlanner planner;
+  runtime::InlinePlanning planning;
+};
 
 }  // namespace twin::test

@@ -3,8 +3,8 @@
 #include <random>
 #include <vector>
 
-#include "feedrate/limits/limit_zone.hpp"
-#include "feedrate/profile/ramp_limits.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/ramps.hpp"
 #include "tests/support/motion_profile.hpp"
 
 namespace twin::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "feedrate/profile/ramp.hpp"
+#include "feedrate/profile/ramps.hpp"
 
 namespace twin::test {
 

@@ -1,16 +1,18 @@
 #include "feedrate/certified/ascent.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/root.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
 
-constexpr double kBelow = 1.0 - 1e-13;  // ratio of feedrates that differ by more than rounding
+/// A feedrate below this share of a limit cannot come to touch it. Nearer to 1 a step that is
+/// touched might be skipped by rounding; farther from it more steps are looked at than need be.
+constexpr double kBelow = 1.0 - 1e-13;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Time at which a rising phase has a feedrate; 0 where it is faster from its start.
@@ -22,22 +24,22 @@ double time_of(const Phase& phase, double v) noexcept {
 
 }  // namespace
 
-void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const Knot& knot,
+void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor,
                    Sense sense, const RampLimits& ramp, double ceiling) {
   zones_ = zones;
   next_zone_ = first;
-  origin_ = knot.s;
+  origin_ = anchor.s;
   sign_ = static_cast<double>(sense);
   a_max_ = ramp.acceleration;
   jerk_ = ramp.jerk;
-  ceiling_ = std::max(ceiling, knot.v);
-  highest_ = knot.v;
+  ceiling_ = std::max(ceiling, anchor.v);
+  highest_ = anchor.v;
   has_all_steps_ = is_complete_ = false;
   steps_.clear();
   step_ = 0;
   phases_.clear();
   tops_.clear();
-  at_ = {0.0, knot.v, 0.0};
+  at_ = {0.0, anchor.v, 0.0};
 }
 
 double Ascent::leaving_feedrate(const PathMotion& at) const noexcept {
@@ -143,7 +145,7 @@ void Ascent::append(double duration, double jerk) {
 
 /// -J until a step ends or a = 0, then no acceleration until it ends.
 void Ascent::follow(const Step& step) {
-  if (top() > step.limit * (1.0 + 1e-12)) {
+  if (top() > step.limit * (1.0 + kFormulaRounding)) {
     const double root =
         std::sqrt(std::max(at_.a * at_.a - 2.0 * jerk_ * (step.limit - at_.v), 0.0));
     append((at_.a - root) / jerk_, -jerk_);
@@ -170,7 +172,7 @@ void Ascent::extend() {
   while (step(step_).end <= at_.s + kTouchRounding) {
     ++step_;
   }
-  Phase phase{0.0, at_.s, at_.v, at_.a, at_.a < a_max_ * (1.0 - 1e-12) ? jerk_ : 0.0};
+  Phase phase{0.0, at_.s, at_.v, at_.a, at_.a < a_max_ * (1.0 - kFormulaRounding) ? jerk_ : 0.0};
   double time = std::max(longest(phase, ceiling_), 0.0);
   if (phase.j > 0.0) {
     time = std::min(time, (a_max_ - at_.a) / jerk_);

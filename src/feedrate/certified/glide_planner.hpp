@@ -8,14 +8,16 @@
 
 namespace twin::feedrate {
 
-/// Settles a Glide up to the last place without acceleration that the end of the window does not
-/// slow down.
+/// Plans a window as a Glide. Final is the plan up to the last place without acceleration that the
+/// end of the window does not slow down.
 ///
-/// Every summit but the last ends at a knot at its own limit, so its places are final, and from
-/// each of them that has no acceleration the next plan can do as this one did. Of the last summit
-/// the way up is final; from there a descent to any lower limit must have room before the window's
-/// end, for that may be what the segments to come ask for. Should a plan fail all the same, the
-/// last one is followed up to its next place without acceleration: at worst it leads to rest.
+/// Every summit but the last ends at an anchor at its own limit, so its places are final, and from
+/// each of them that has no acceleration the next plan can do as this one did. The way up of the
+/// last summit is final as far as a descent to any lower limit still has room before the window's
+/// end, since the segments to come may ask for it. If a plan fails all the same, the last one is
+/// followed up to its next place without acceleration: at worst it leads to rest.
+///
+/// A plan is due when some braking distances of the path have come, in however many segments.
 class GlidePlanner final : public WindowPlanner {
  public:
   /// @param look_ahead  fewest segments between two plans, where their number makes one due
@@ -44,7 +46,7 @@ class GlidePlanner final : public WindowPlanner {
   bool plan_until(const Window& window, double horizon);
   bool fall_back(Window& window, double horizon, Tail tail);
   double descent_to(const Window& window, std::size_t zone, double v, double most);
-  double room_after(const Window& window, const Knot& knot, double horizon);
+  double room_after(const Window& window, const Anchor& anchor, double horizon);
   Cut last_final(const Window& window, double horizon);
   Cut next_level() const;
   void commit(Window& window, const Cut& cut);

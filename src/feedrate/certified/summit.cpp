@@ -1,10 +1,10 @@
 #include "feedrate/certified/summit.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/root.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -18,7 +18,8 @@ void append(std::vector<Phase>& phases, PathMotion& at, double duration, double 
 
 }  // namespace
 
-bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, Summit& summit) {
+std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_least, double cap) {
+  Summit summit;
   const auto room_at = [&](double v) {
     summit.up = up.exit_at(v);
     summit.down = down.exit_at(v);
@@ -35,25 +36,25 @@ bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, S
   }
   double high = std::min({up.top(), down.top(), cap});
   if (high < v_least) {
-    if (high < v_least * (1.0 - 1e-12)) {
-      return false;
+    if (high < v_least * (1.0 - kFormulaRounding)) {
+      return std::nullopt;
     }
     high = v_least;
   }
   summit.v = high;
   const double room_high = room_at(high);
   if (room_high >= 0.0) {
-    return true;
+    return summit;
   }
   const double room_low = room_at(v_least);
   summit.v = v_least;
   if (room_low < 0.0) {
-    return room_low >= -kDistanceRounding;
+    return room_low >= -kDistanceRounding ? std::optional(summit) : std::nullopt;
   }
   const auto missing_at = [&](double v) { return -room_at(v); };
   summit.v = root_from_below(missing_at, v_least, -room_low, high, -room_high,
                              {0.1 * kDistanceRounding, 1e-14, 100, 3});
-  return room_at(summit.v) >= 0.0;
+  return room_at(summit.v) >= 0.0 ? std::optional(summit) : std::nullopt;
 }
 
 std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& down, double s0,

@@ -1,9 +1,10 @@
 #include "feedrate/paper/hump_planner.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -41,7 +42,7 @@ void HumpPlanner::advance(Window& window, double horizon, Tail tail) {
     commit(plan_.front().b, window);  // a hump of the last plan, which leads to rest at worst
   }
   plan_ = envelope_.humps();
-  commit(commit_knot(window, horizon, tail), window);
+  commit(commit_anchor(window, horizon, tail), window);
 }
 
 void HumpPlanner::forget(double distance) {
@@ -65,39 +66,40 @@ void HumpPlanner::plan_evenly(const Window& window, double horizon) {
   envelope_.plan(even, window.start, {horizon, 0.0});
 }
 
-/// How far a knot may be moved on and still leave room to come down, with no acceleration, to any
-/// feedrate below a lower limit before `last`, and to any at all at `last`; negative where it is
-/// too far already.
-double HumpPlanner::room_after(const Window& window, const Knot& knot, double horizon) const {
-  const double longest = longest_descent(knot.v, knot.v, ramp_);
-  double room = horizon - knot.s - longest;
+/// How far an anchor may be moved on at its feedrate and still leave room to come down [mm]: to any
+/// feedrate below each lower limit before the horizon, and to any feedrate at all at the horizon,
+/// both without acceleration. It is negative where the anchor is too far on already.
+double HumpPlanner::room_after(const Window& window, const Anchor& anchor, double horizon) const {
+  const double longest = longest_descent(anchor.v, anchor.v, ramp_);
+  double room = horizon - anchor.s - longest;
   const auto from = std::partition_point(
       window.zones.begin(), window.zones.end(),
-      [&](const LimitZone& zone) { return zone.end <= knot.s + kPlaceRounding; });
-  for (auto zone = from; zone != window.zones.end() && zone->begin < knot.s + longest + room;
+      [&](const LimitZone& zone) { return zone.end <= anchor.s + kPlaceRounding; });
+  for (auto zone = from; zone != window.zones.end() && zone->begin < anchor.s + longest + room;
        ++zone) {
-    if (zone->limit < knot.v) {
-      const double down = longest_descent(knot.v, zone->limit, ramp_);
-      room = std::min(room, zone->begin - knot.s - down);
+    if (zone->limit < anchor.v) {
+      const double down = longest_descent(anchor.v, zone->limit, ramp_);
+      room = std::min(room, zone->begin - anchor.s - down);
     }
   }
   return room;
 }
 
-/// Last place of the plan that its end does not slow down: a knot at its own limit or a hold under
-/// a cap. Where there is none, the last peak; where not even that, the start, and the window grows.
-Knot HumpPlanner::commit_knot(const Window& window, double horizon, Tail tail) const {
+/// Last place of the plan that its end does not slow down: an anchor at its own limit, or a hold
+/// under a cap. Where the plan has neither, it is the last peak; where it has not even that, it is
+/// the start, and the window grows.
+Anchor HumpPlanner::commit_anchor(const Window& window, double horizon, Tail tail) const {
   if (tail == Tail::kClosed) {
     return plan_.back().b;
   }
-  Knot peak = window.start;
+  Anchor peak = window.start;
   for (std::size_t i = plan_.size(); i-- > 0;) {
     const Hump& hump = plan_[i];
     if (hump.b.is_at_limit && room_after(window, hump.b, horizon) >= -kPlaceRounding) {
       return hump.b;
     }
     const double hold = hump.b.s - hump.down - hump.a.s - hump.up;
-    const Knot top{hump.a.s + hump.up, hump.peak};
+    const Anchor top{hump.a.s + hump.up, hump.peak};
     const double room = room_after(window, top, horizon);
     if (hold > kPlaceRounding && room > kPlaceRounding) {
       return {top.s + std::min(hold, room), top.v};
@@ -109,21 +111,22 @@ Knot HumpPlanner::commit_knot(const Window& window, double horizon, Tail tail) c
   return peak;
 }
 
-void HumpPlanner::commit(Knot knot, Window& window) {
+/// Makes the plan final up to an anchor: its phases go to the window, which starts there then.
+void HumpPlanner::commit(Anchor anchor, Window& window) {
   std::size_t done = 0;
-  for (; done < plan_.size() && plan_[done].b.s <= knot.s + kPlaceRounding; ++done) {
+  for (; done < plan_.size() && plan_[done].b.s <= anchor.s + kPlaceRounding; ++done) {
     append_phases(plan_[done], ramp_, window.phases);
   }
-  if (done < plan_.size() && knot.s > plan_[done].a.s + kPlaceRounding) {
-    Hump first = plan_[done];  // the knot lies at the end of its hold
-    first.b = knot;
+  if (done < plan_.size() && anchor.s > plan_[done].a.s + kPlaceRounding) {
+    Hump first = plan_[done];  // the anchor lies at the end of its hold
+    first.b = anchor;
     first.down = 0.0;
     append_phases(first, ramp_, window.phases);
-    plan_[done].a = knot;
+    plan_[done].a = anchor;
     plan_[done].up = 0.0;
   }
   plan_.erase(plan_.begin(), plan_.begin() + static_cast<std::ptrdiff_t>(done));
-  window.start = knot;
+  window.start = anchor;
 }
 
 }  // namespace twin::feedrate

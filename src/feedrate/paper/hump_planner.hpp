@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "feedrate/paper/envelope.hpp"
@@ -8,12 +7,12 @@
 
 namespace twin::feedrate {
 
-/// Settles humps of the Envelope: up to the last knot at its own limit, or hold under a cap, that
-/// the end of the window does not slow down.
+/// Plans a window as an Envelope of humps. Final is the plan up to the last anchor at its own
+/// limit, or hold under a cap, that the end of the window does not slow down.
 ///
-/// From the committed knot any feedrate can be reached with no acceleration before the horizon, so
-/// the next plan can put its knots where it needs them. Should one fail all the same, humps of the
-/// last one are taken, which only costs time.
+/// From there any feedrate can be reached without acceleration before the horizon, so the next plan
+/// can put its anchors where it needs them. Should it fail all the same, humps of the last plan are
+/// taken, which only costs time.
 class HumpPlanner final : public WindowPlanner {
  public:
   /// @param look_ahead  segments in the window that make a plan due
@@ -27,9 +26,9 @@ class HumpPlanner final : public WindowPlanner {
  private:
   void advance(Window& window, double horizon, Tail tail) override;
   void plan_evenly(const Window& window, double horizon);
-  double room_after(const Window& window, const Knot& knot, double horizon) const;
-  Knot commit_knot(const Window& window, double horizon, Tail tail) const;
-  void commit(Knot knot, Window& window);
+  double room_after(const Window& window, const Anchor& anchor, double horizon) const;
+  Anchor commit_anchor(const Window& window, double horizon, Tail tail) const;
+  void commit(Anchor anchor, Window& window);
 
   RampLimits ramp_;
   Envelope envelope_;

@@ -8,8 +8,9 @@
 
 namespace twin::geometry {
 
-/// A span of this length is taken as it is, however far it deviates [mm]. It only bounds the
-/// halving: NC programs have no blocks that are shorter.
+/// A span of this length is accepted however far it deviates [mm], so that halving comes to an end.
+/// Twice the length saves one halving, and the polygon of a run has details of that size only where
+/// its blocks are specks.
 inline constexpr double kShortestSpan = 1e-4;
 
 /// What is known of a run of short blocks.

@@ -14,8 +14,14 @@ namespace {
 using gcode::Block;
 using gcode::Motion;
 
-constexpr double kStep = 0.26;           // sampling of an arc: just under 15 deg [rad]
-constexpr int kZoom = 16;                // samples per round where Newton's method does not serve
+/// Angle between the samples of an arc, just under 15 deg [rad]. A bracket of two samples has to
+/// hold one minimum; twice the angle halves the work, and a helix of little rise may hide a
+/// minimum.
+constexpr double kStep = 0.26;
+
+/// Samples of a round of zooming in; each round divides the interval by half of that.
+constexpr int kZoom = 16;
+
 constexpr double kSameFraction = 1e-13;  // two fractions of an arc that are one
 
 /// Half the derivative of the squared distance at f, and the derivative of that.

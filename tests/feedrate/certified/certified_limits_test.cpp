@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "feedrate/limits/curvature_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 #include "tests/support/blocks.hpp"
 #include "tests/support/random_program.hpp"
 

@@ -1,4 +1,4 @@
-#include "feedrate/limits/contact_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 #include <gtest/gtest.h>
 

@@ -44,8 +44,8 @@ TEST(Envelope, FromRestToRestIsAlwaysFoundAndKeepsEveryLimit) {
     RampLimits limits = test::random_limits(random);
     limits.profile = test::kProfiles[static_cast<std::size_t>(i) % 3];
     Envelope envelope(limits);
-    const Knot start{zones.front().begin, 0.0};
-    const Knot end{zones.back().end, 0.0};
+    const Anchor start{zones.front().begin, 0.0};
+    const Anchor end{zones.back().end, 0.0};
     ASSERT_TRUE(envelope.plan(zones, start, end)) << "case " << i;
     const auto& humps = envelope.humps();
     ASSERT_EQ(humps.front().a.s, start.s);
@@ -157,22 +157,23 @@ TEST(Envelope, PlannedAgainFromOneOfItsKnotsIsTheSame) {
   for (int i = 0; i < 3000; ++i) {
     const auto zones = random_zones(random);
     Envelope envelope(kTable2);
-    const Knot end{zones.back().end, 0.0};
+    const Anchor end{zones.back().end, 0.0};
     ASSERT_TRUE(envelope.plan(zones, {zones.front().begin, 0.0}, end));
     const std::vector<Hump> whole = envelope.humps();
-    const Knot knot = whole[random() % whole.size()].a;
-    const auto from = std::find_if(zones.begin(), zones.end(),
-                                   [&](const LimitZone& zone) { return zone.end > knot.s + 1e-9; });
-    if (knot.v == 0.0 || from == zones.end()) {
+    const Anchor anchor = whole[random() % whole.size()].a;
+    const auto from = std::find_if(zones.begin(), zones.end(), [&](const LimitZone& zone) {
+      return zone.end > anchor.s + 1e-9;
+    });
+    if (anchor.v == 0.0 || from == zones.end()) {
       continue;
     }
     ++again;
-    ASSERT_TRUE(envelope.plan({from, zones.end()}, knot, end)) << "case " << i;
+    ASSERT_TRUE(envelope.plan({from, zones.end()}, anchor, end)) << "case " << i;
     double rest = 0.0;
     for (const Hump& hump : whole) {
       std::vector<Phase> phases;
       append_phases(hump, kTable2, phases);
-      rest += hump.a.s >= knot.s ? MotionProfile(phases).duration() : 0.0;
+      rest += hump.a.s >= anchor.s ? MotionProfile(phases).duration() : 0.0;
     }
     ASSERT_LE(profile_of(envelope, kTable2).duration(), rest * (1.0 + 1e-6)) << "case " << i;
   }

@@ -12,13 +12,13 @@ using test::log_uniform;
 constexpr RampLimits kTable2{2450.0, 50000.0};
 
 struct Case {
-  Knot a;
-  Knot b;
+  Anchor a;
+  Anchor b;
   double cap;
   RampLimits limits;
 };
 
-/// Random knots of which each can be reached from the other.
+/// Random anchors of which each can be reached from the other.
 Case random_case(std::mt19937& random) {
   Case c;
   c.limits = test::random_limits(random);

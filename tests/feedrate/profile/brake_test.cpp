@@ -1,4 +1,4 @@
-#include "feedrate/profile/brake.hpp"
+#include "feedrate/profile/phases.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "feedrate/profile/phase.hpp"
-#include "feedrate/profile/ramp.hpp"
+#include "feedrate/profile/phases.hpp"
+#include "feedrate/profile/ramps.hpp"
 #include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {

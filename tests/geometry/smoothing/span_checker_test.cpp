@@ -61,7 +61,7 @@ TEST(SpanChecker, TakesTheShortestSpanAsItIs) {
   SpanChecker spans;
   spans.start(0.001);
   spans.begin_run();
-  EXPECT_FALSE(spans.append(straight(3.0, 3.0 + 0.9 * kShortestSpan), whole(polygon), 3));
+  EXPECT_FALSE(spans.append(straight(3.0, 3.0 + 0.9 * kShortestSpan), whole(polygon), 2));
 }
 
 TEST(SpanChecker, HoldsSpansBackAndReleasesThemInOrder) {

@@ -31,7 +31,7 @@ Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPo
   hal::Inputs inputs;
   hal::Outputs outputs;
   outputs.servo_on = {true, true};
-  const long settle = std::lround(runtime::Pace{}.settle_time / file.period);
+  const long settle = std::lround(runtime::MotionOptions{}.rest_before / file.period);
   for (long k = -settle; k < static_cast<long>(points.size()); ++k) {
     EXPECT_EQ(table.read(inputs), hal::Status::kOk);
     const motion::SetPoint held;
