@@ -207,12 +207,12 @@ results::Summary Run::summarise(double wall_time) {
   put_into(summary, figures, machine.path.planner == Planner::kCertified);
   summary.planned_time = outlook_.planned_time.value_or(figures.time);
   summary.overrides = feed_.records();
-  summary.notes = request_.machine.notes;
+  summary.notes = machine.notes;
   summary.version = version();
   summary.command = request_.command;
   summary.program_sha256 = request_.program.text ? sha256(*request_.program.text)
                                                  : sha256_of_file(request_.program.file);
-  summary.settings = config::settings_of(request_.machine);
+  summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;

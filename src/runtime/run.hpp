@@ -35,6 +35,7 @@ struct RunTask {
 struct RunOutput {
   std::filesystem::path directory;  ///< made when missing; empty: no file is written
   std::vector<TraceSink*> sinks;    ///< get the rows of the trace, besides the files
+  std::string command;              ///< command line or the caller's own words, for the summary
 };
 
 /// How a run goes.

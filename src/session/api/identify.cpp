@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "session/api/inside.hpp"
-#include "studies/identify/columns.hpp"
-#include "studies/identify/report.hpp"
+#include "studies/identify/identification_report.hpp"
+#include "studies/identify/recording_columns.hpp"
 
 namespace twin {
 

@@ -27,7 +27,7 @@ constexpr std::array<Entry, 4> kEntries{
     {{"paper", "nurbs"}, {"paper", "bezier"}, {"paper", "linear"}, {"certified", "nurbs"}}};
 
 /// Plans a job by itself, with its bound.
-Expected<void> add_plan(const studies::Job& job, Contestant& contestant) {
+Expected<void> add_plan(const studies::jobs::Job& job, Contestant& contestant) {
   TWIN_TRY(contestant.summary.planning_time, planning_time(job));
   TWIN_TRY(contestant.plan,
            bounded_plan(job.program, job.machine, job.feedrate, Profiles::kRecorded));
@@ -36,13 +36,15 @@ Expected<void> add_plan(const studies::Job& job, Contestant& contestant) {
 }
 
 Expected<void> run_contestants(const Request& request, Comparison& result) {
-  std::vector<studies::Job> jobs;
+  std::vector<studies::jobs::Job> jobs;
   for (const Entry& entry : kEntries) {
-    TWIN_TRY(studies::Job job, job_of(request, request.program, entry.name(), entry.settings()));
+    TWIN_TRY(studies::jobs::Job job,
+             job_of(request, request.program, entry.name(), entry.settings()));
     job.directory = request.folder / ("run_" + entry.name());
     jobs.push_back(std::move(job));
   }
-  TWIN_TRY(const std::vector<results::Summary> summaries, studies::run_jobs(jobs, request.running));
+  TWIN_TRY(const std::vector<results::Summary> summaries,
+           studies::jobs::run_jobs(jobs, request.running));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Contestant contestant{.name = jobs[i].name,
                           .planner = kEntries[i].planner,
@@ -61,7 +63,8 @@ Expected<void> run_contestants(const Request& request, Comparison& result) {
 
 /// Adds the plans of one program, each update under each rule.
 Expected<void> add_plans(const Request& request, const std::filesystem::path& program,
-                         std::vector<studies::Job>& jobs, std::vector<Fluctuation>& fluctuations) {
+                         std::vector<studies::jobs::Job>& jobs,
+                         std::vector<Fluctuation>& fluctuations) {
   for (const std::string rule : {"", "constant"}) {
     for (const std::string update : kUpdates) {
       std::vector<std::string> settings{"planning.planner=paper", "path.curves=nurbs",
@@ -70,7 +73,7 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
         settings.push_back("planning.feedrate_rule=" + rule);
       }
       const std::string file = program.filename().string();
-      TWIN_TRY(studies::Job job, job_of(request, program, file + ", " + update, settings));
+      TWIN_TRY(studies::jobs::Job job, job_of(request, program, file + ", " + update, settings));
       job.has_machine = false;
       job.directory = request.folder / fmt::format("plan_{}", jobs.size());
       fluctuations.push_back({.program = file,
@@ -85,7 +88,7 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
 }
 
 Expected<void> plan_updates(const Request& request, Comparison& result) {
-  std::vector<studies::Job> jobs;
+  std::vector<studies::jobs::Job> jobs;
   std::vector<std::filesystem::path> programs = request.curve_programs;
   if (result.contestants.front().summary.segments.curves > 0) {
     programs.insert(programs.begin(), request.program);
@@ -93,7 +96,8 @@ Expected<void> plan_updates(const Request& request, Comparison& result) {
   for (const auto& program : programs) {
     TWIN_CHECK(add_plans(request, program, jobs, result.fluctuations));
   }
-  TWIN_TRY(const std::vector<results::Summary> summaries, studies::run_jobs(jobs, request.running));
+  TWIN_TRY(const std::vector<results::Summary> summaries,
+           studies::jobs::run_jobs(jobs, request.running));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     result.fluctuations[i].shares = summaries[i].feedrate_fluctuation;
   }

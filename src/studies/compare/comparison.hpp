@@ -21,7 +21,7 @@ struct Request {
   std::vector<std::string> settings;  ///< section.key=value, for all
   std::optional<double> feedrate;     ///< replaces the program's F words [mm/s]
   std::filesystem::path folder;       ///< exists; gets a folder with the trace of each run
-  studies::Options running;
+  studies::jobs::Options running;
 };
 
 /// One run: an interpolator under the paper's planner, or the certified planner.

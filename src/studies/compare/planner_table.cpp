@@ -64,7 +64,7 @@ std::string json_text(const std::vector<PlannerRow>& rows) {
 }
 
 /// Adds what a plan by itself gives to a row.
-Expected<void> complete(const studies::Job& job, PlannerRow& row) {
+Expected<void> complete(const studies::jobs::Job& job, PlannerRow& row) {
   TWIN_TRY(row.summary.planning_time, planning_time(job));
   TWIN_TRY(const BoundedPlan plan,
            bounded_plan(job.program, job.machine, job.feedrate, Profiles::kLeftOut));
@@ -77,12 +77,12 @@ Expected<void> complete(const studies::Job& job, PlannerRow& row) {
 
 Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
                                                const std::vector<std::filesystem::path>& programs) {
-  std::vector<studies::Job> jobs;
+  std::vector<studies::jobs::Job> jobs;
   std::vector<PlannerRow> rows;
   for (const auto& program : programs) {
     const std::string file = program.filename().string();
     for (const std::string planner : kPlanners) {
-      TWIN_TRY(studies::Job job,
+      TWIN_TRY(studies::jobs::Job job,
                job_of(request, program, file + ", " + planner, {"planning.planner=" + planner}));
       job.has_machine = false;
       job.keeps_results = false;
@@ -91,7 +91,7 @@ Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
       rows.push_back({.program = file, .planner = planner, .summary = {}, .verdict = {}});
     }
   }
-  TWIN_TRY(std::vector<results::Summary> summaries, studies::run_jobs(jobs, request.running));
+  TWIN_TRY(std::vector<results::Summary> summaries, studies::jobs::run_jobs(jobs, request.running));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     rows[i].summary = std::move(summaries[i]);
     TWIN_CHECK(complete(jobs[i], rows[i]));

@@ -10,19 +10,20 @@
 
 namespace twin::studies::compare {
 
-Expected<studies::Job> job_of(const Request& request, const std::filesystem::path& program,
-                              const std::string& name, const std::vector<std::string>& settings) {
+Expected<studies::jobs::Job> job_of(const Request& request, const std::filesystem::path& program,
+                                    const std::string& name,
+                                    const std::vector<std::string>& settings) {
   std::vector<std::string> all = request.settings;
   all.insert(all.end(), settings.begin(), settings.end());
   TWIN_TRY(config::MachineFile machine, config::read_machine_file(request.machine_file, all));
-  return studies::Job{.name = name,
-                      .program = program,
-                      .machine = std::move(machine),
-                      .feedrate = request.feedrate,
-                      .directory = {}};
+  return studies::jobs::Job{.name = name,
+                            .program = program,
+                            .machine = std::move(machine),
+                            .feedrate = request.feedrate,
+                            .directory = {}};
 }
 
-Expected<double> planning_time(const studies::Job& job) {
+Expected<double> planning_time(const studies::jobs::Job& job) {
   gcode::ReaderOptions options;
   options.feedrate = job.feedrate;
   double best = std::numeric_limits<double>::infinity();

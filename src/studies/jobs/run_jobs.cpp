@@ -9,7 +9,7 @@
 
 #include "runtime/run.hpp"
 
-namespace twin::studies {
+namespace twin::studies::jobs {
 namespace {
 
 Error named(const Job& job, Error error) {
@@ -107,4 +107,4 @@ Expected<std::vector<results::Summary>> run_jobs(std::span<const Job> jobs,
   return pool.finish();
 }
 
-}  // namespace twin::studies
+}  // namespace twin::studies::jobs

@@ -15,7 +15,7 @@
 #include "results/metrics/summary.hpp"
 
 /// Several runs side by side over the cores.
-namespace twin::studies {
+namespace twin::studies::jobs {
 
 /// One run among several.
 struct Job {
@@ -47,4 +47,4 @@ struct Options {
 /// job in that order that fails, which does not depend on what runs beside it either
 Expected<std::vector<results::Summary>> run_jobs(std::span<const Job> jobs, const Options& options);
 
-}  // namespace twin::studies
+}  // namespace twin::studies::jobs

@@ -36,11 +36,11 @@ class Plan {
              config::read_machine_file(request_.machine_file, all));
     TWIN_TRY(const std::filesystem::path program, config::find_program(row.program + ".nc"));
     const std::size_t first = jobs_.size();
-    studies::Job job{.name = row.name(),
-                     .program = program,
-                     .machine = machine,
-                     .feedrate = units::mm_per_s_from_mm_per_min(row.feedrate_mm_per_min),
-                     .directory = request_.folder / fmt::format("run_{}", first)};
+    studies::jobs::Job job{.name = row.name(),
+                           .program = program,
+                           .machine = machine,
+                           .feedrate = units::mm_per_s_from_mm_per_min(row.feedrate_mm_per_min),
+                           .directory = request_.folder / fmt::format("run_{}", first)};
     jobs_.push_back(job);
     job.keeps_results = false;
     for (int repeat = 1; repeat <= request_.repeats; ++repeat) {
@@ -51,11 +51,11 @@ class Plan {
     return first_jobs_[key] = first;
   }
 
-  const std::vector<studies::Job>& jobs() const noexcept { return jobs_; }
+  const std::vector<studies::jobs::Job>& jobs() const noexcept { return jobs_; }
 
  private:
   const Request& request_;
-  std::vector<studies::Job> jobs_;
+  std::vector<studies::jobs::Job> jobs_;
   std::map<std::string, std::size_t> first_jobs_;  // by row and settings
 };
 
@@ -88,8 +88,8 @@ std::vector<Spread> spreads_of(const std::vector<std::vector<double>>& runs) {
 }
 
 Answer answer(const PublishedRow& row, const Request& request,
-              const std::vector<studies::Job>& jobs, const std::vector<results::Summary>& summaries,
-              std::size_t first) {
+              const std::vector<studies::jobs::Job>& jobs,
+              const std::vector<results::Summary>& summaries, std::size_t first) {
   Answer answer;
   answer.published = row;
   answer.summary = summaries[first];
@@ -118,7 +118,7 @@ Expected<Reproduction> reproduce(const Request& request) {
     }
   }
   TWIN_TRY(const std::vector<results::Summary> summaries,
-           studies::run_jobs(plan.jobs(), request.running));
+           studies::jobs::run_jobs(plan.jobs(), request.running));
   Reproduction result;
   result.source = request.published.source;
   result.machine = plan.jobs().front().machine.name;

@@ -17,7 +17,7 @@ struct Request {
   std::vector<std::string> settings;  ///< section.key=value, for all rows
   int repeats = 10;                   ///< runs with other phases, for mean and deviation
   std::filesystem::path folder;       ///< exists; gets a folder with the trace of each single run
-  studies::Options running;
+  studies::jobs::Options running;
 };
 
 /// Mean and standard deviation of a number over the repeats.

@@ -8,7 +8,7 @@
 
 #include "tests/support/temp_folder.hpp"
 
-namespace twin::studies {
+namespace twin::studies::jobs {
 namespace run_jobs_test {
 
 using ::testing::StartsWith;
@@ -53,4 +53,4 @@ TEST(RunJobs, SummariesComeInTheOrderOfTheJobs) {
 }
 
 }  // namespace run_jobs_test
-}  // namespace twin::studies
+}  // namespace twin::studies::jobs
