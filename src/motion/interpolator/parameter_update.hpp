@@ -9,9 +9,8 @@ namespace twin::motion {
 
 /// Second-order Taylor step of the parameter over a period T at feedrate V and tangential
 /// acceleration A:
-///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)                [WY09, Eq.
-///   23]
-/// (printed there with |C'|^3 inside the bracket that 1/|C'| stands before: the same).
+///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)        [WY09, Eq. 23]
+/// The paper prints the same with 1 / |C'| before the bracket and |C'|^3 in it.
 /// @note Real-time safe.
 double taylor_step(const geometry::Derivatives& at, double u, double feedrate, double acceleration,
                    double period) noexcept;
@@ -21,15 +20,19 @@ double taylor_step(const geometry::Derivatives& at, double u, double feedrate, d
 double first_order_step(const geometry::Derivatives& at, double u, double feedrate,
                         double period) noexcept;
 
-/// Classical Runge-Kutta step of du/dt = V(t) / |C'(u)| over a period T, with the feedrate at its
-/// begin, middle and end [mm/s]. @p at are the derivatives at u.
+/// Classical Runge-Kutta step of du/dt = V(t) / |C'(u)| over a period T.
+///
+/// @param at        derivatives at u
+/// @param feedrate  V at the begin, in the middle and at the end of the period [mm/s]
 /// @note Real-time safe.
 double runge_kutta_step(const geometry::Curve& curve, const geometry::Derivatives& at, double u,
                         const std::array<double, 3>& feedrate, double period) noexcept;
 
-/// Parameter of the place at arc length s: the Taylor step predicts it, and where it misses s by
-/// more than the arc length can tell, Newton steps on s(u) correct it. The step from one sample to
-/// the next is then exact, and no error adds up along the curve.
+/// Parameter of the place at arc length s.
+///
+/// The Taylor step predicts it. Where the prediction misses s by more than the arc length can tell,
+/// Newton steps on s(u) correct it. The step from one set point to the next is then exact, and no
+/// error adds up along the curve.
 /// @note Real-time safe.
 double corrected_parameter(const geometry::Curve& curve, const geometry::ArcLength& arc_length,
                            double s, double predicted) noexcept;
