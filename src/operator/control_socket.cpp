@@ -74,7 +74,7 @@ Expected<void> clear_place(const std::filesystem::path& path, const sockaddr_un&
   return {};
 }
 
-/// Takes the folder's lock: two runs that start together do not take each other's socket.
+/// Locks the folder, so that two runs that start together do not replace each other's socket.
 bool lock(int folder) {
   for (int i = 0; i < 100; ++i) {
     if (::flock(folder, LOCK_EX | LOCK_NB) == 0) {
@@ -92,7 +92,7 @@ bool is_of_this_user(int connection) {
          (peer.uid == ::geteuid() || peer.uid == 0);
 }
 
-/// @returns false if the other end does not take it now
+/// @returns false if the other end does not accept it at once
 bool send_line(int connection, std::string line) {
   line += '\n';
   return ::send(connection, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
@@ -103,28 +103,21 @@ bool send_line(int connection, std::string line) {
 
 Expected<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::filesystem::path& path,
                                                              Answer answer) {
-  const auto address = address_of(path);
-  if (!address) {
-    return tl::unexpected(address.error());
-  }
+  TWIN_TRY(const sockaddr_un address, address_of(path));
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
   const Descriptor folder(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.get() < 0) {
     return file_error(parent, "open this folder", errno);
   }
-  if (auto checked = check_folder(folder.get(), parent); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TWIN_CHECK(check_folder(folder.get(), parent));
   if (!lock(folder.get())) {
     return refused(parent, "this folder is locked by another process");
   }
-  if (auto cleared = clear_place(path, *address); !cleared) {
-    return tl::unexpected(cleared.error());
-  }
+  TWIN_CHECK(clear_place(path, address));
   Descriptor listening(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   // Linux makes the file with the mode of the socket, so it never has a wider one.
   if (::fchmod(listening.get(), S_IRUSR | S_IWUSR) != 0 ||
-      ::bind(listening.get(), as_generic(*address), sizeof(*address)) != 0 ||
+      ::bind(listening.get(), as_generic(address), sizeof(address)) != 0 ||
       ::listen(listening.get(), static_cast<int>(kMostClients)) != 0) {
     return file_error(path, "listen at this control socket", errno);
   }
@@ -182,7 +175,7 @@ void ControlSocket::welcome() {
   clients_.push_back({std::move(connection), {}});
 }
 
-/// Takes what a client has sent and answers its lines. @returns false to close the connection
+/// Receives what a client has sent and answers its lines. @returns false to close the connection
 bool ControlSocket::hear(Client& client) {
   char bytes[kLongestLine];
   const int connection = client.connection->get();

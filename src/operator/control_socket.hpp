@@ -17,14 +17,14 @@ namespace twin::operator_station {
 
 /// A Unix domain socket for the user who started the run, and for nobody else: lines in, lines out.
 ///
-/// The folder must be one that others cannot rename files in; the socket has mode 0600, and who
-/// connects is asked for by SO_PEERCRED. A socket that nobody listens at is taken over, one that
-/// another run listens at never. Nothing in here waits, apart from poll() of the caller.
+/// The folder must be one that others cannot rename files in. The socket has mode 0600, and
+/// SO_PEERCRED tells who connects. A socket at which nobody listens is replaced, and one at which
+/// another run listens is not. Nothing in here waits, apart from poll() of the caller.
 class ControlSocket {
  public:
   using Answer = std::function<std::string(std::string_view)>;
 
-  /// @param answer  gets a line without its end, gives one back
+  /// @param answer  gets a line without its end and returns the answer, without its end too
   static Expected<std::unique_ptr<ControlSocket>> open(const std::filesystem::path& path,
                                                        Answer answer);
   ControlSocket(const ControlSocket&) = delete;
@@ -34,7 +34,7 @@ class ControlSocket {
 
   /// Appends what to poll for.
   void add_to(std::vector<pollfd>& polled) const;
-  /// Takes what poll() has found.
+  /// Serves what poll() has found.
   void serve(const std::vector<pollfd>& polled);
 
  private:

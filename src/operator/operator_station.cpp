@@ -23,12 +23,9 @@ Expected<std::unique_ptr<OperatorStation>> OperatorStation::open(const Options& 
                                                                  runtime::OperatorPanel& panel) {
   std::unique_ptr<ControlSocket> socket;
   if (!options.socket.empty()) {
-    auto opened = ControlSocket::open(
-        options.socket, [&panel](std::string_view line) { return answer(line, panel); });
-    if (!opened) {
-      return tl::unexpected(opened.error());
-    }
-    socket = std::move(*opened);
+    TWIN_TRY(socket, ControlSocket::open(options.socket, [&panel](std::string_view line) {
+               return answer(line, panel);
+             }));
   }
   return std::unique_ptr<OperatorStation>(new OperatorStation(options, panel, std::move(socket)));
 }
@@ -67,7 +64,7 @@ void OperatorStation::work(const std::stop_token& stop) {
       continue;  // a signal
     }
     if ((polled[1].revents & POLLIN) != 0) {
-      take_keys();
+      read_keys();
     } else if (polled[1].revents != 0) {
       has_keys_ = false;  // the terminal is gone
     }
@@ -81,7 +78,7 @@ void OperatorStation::work(const std::stop_token& stop) {
   }
 }
 
-void OperatorStation::take_keys() {
+void OperatorStation::read_keys() {
   char keys[16];
   const ssize_t count = ::read(STDIN_FILENO, keys, sizeof(keys));
   for (ssize_t i = 0; i < count; ++i) {

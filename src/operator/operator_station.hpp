@@ -35,7 +35,7 @@ class OperatorStation {
   OperatorStation(const Options& options, runtime::OperatorPanel& panel,
                   std::unique_ptr<ControlSocket> socket);
   void work(const std::stop_token& stop);
-  void take_keys();
+  void read_keys();
 
   runtime::OperatorPanel& panel_;
   std::unique_ptr<ControlSocket> socket_;

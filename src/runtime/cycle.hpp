@@ -20,15 +20,15 @@ namespace twin::runtime {
 ///   prepare()    interpolator -> set point of the period
 ///   respond()    servo -> monitors -> machine.write
 ///
-/// On the wall clock in this order, so that the counts are those of the period's begin. Off it
-/// prepare() comes first and exchange() does the rest: a period in which no set point is there yet
-/// need not let time pass on a simulated machine. The results are the same, because the set point
-/// does not depend on what is measured. Nothing in any call allocates, locks, throws, prints or
-/// touches a file.
+/// On the wall clock the calls come in this order, so that the counts are those of the period's
+/// begin. In lockstep prepare() comes first and exchange() does the rest, so that a simulated
+/// machine lets no time pass in a period that has no set point. The results are the same, because
+/// the set point does not depend on what is measured. No call allocates, locks, throws, prints or
+/// touches a file, but for what the interpolator's source does in prepare().
 ///
-/// The monitors watch every machine but one that follows its reference. What they find is in
-/// trip(); where it calls for an immediate reaction, 0 V and servo off are written in the same
-/// period, the call returns kError, and nothing is written after it.
+/// The monitors watch every machine but one that follows its reference exactly. trip() is what they
+/// have found. Where it calls for an immediate reaction, the cycle writes 0 V and servo off in the
+/// same period and returns kError, and it writes nothing after that.
 class Cycle {
  public:
   /// @param machine   configured and active; null for a plan without a machine
@@ -46,8 +46,8 @@ class Cycle {
   hal::Status respond(results::Sample& sample) noexcept;
   /// The same for the last set point, at rest. Real-time safe.
   hal::Status respond_at_rest() noexcept;
-  /// Passes over a set point whose period never began: nothing is written. Measured values of the
-  /// sample lie between those of the period before and those just read. Real-time safe.
+  /// Passes over a set point whose period never began, and writes nothing. The measured values of
+  /// the sample lie between those of the period before and those just read. Real-time safe.
   /// @param share  how far between them, 0 to 1
   void pass_over(results::Sample& sample, double share) noexcept;
 
@@ -67,7 +67,7 @@ class Cycle {
   const hal::Inputs& inputs() const noexcept { return inputs_; }
   /// What the counts mean [mm].
   const Vec2& measured() const noexcept { return measured_; }
-  /// What the monitors have found first.
+  /// What the monitors found first, or what switched the machine off.
   const std::optional<motion::Trip>& trip() const noexcept { return trip_; }
   /// Time of the next sample, since the first one [s].
   double time() const noexcept { return static_cast<double>(periods_) * period_; }

@@ -15,7 +15,7 @@ class KeptPath {
   explicit KeptPath(double behind) : behind_(behind) {}
 
   void add(const path::Segment& segment);
-  /// The motion has come to this segment: forgets what is far enough behind it.
+  /// Forgets the segments that lie far enough behind the one that the motion has come to.
   void drop_before(std::int64_t segment);
 
   /// Index of the segment after the last one.
@@ -26,8 +26,8 @@ class KeptPath {
   double end_of(std::int64_t index) const {
     return piece(index).begin + piece(index).segment.length;
   }
-  /// The segment from which on corners are looked at for a plan that starts in another one. It does
-  /// not depend on how much is still kept.
+  /// The segment with which a plan begins that starts in the segment of an index: the corners from
+  /// there on may limit each other. It does not depend on how much is still kept.
   std::int64_t lead_in(std::int64_t index) const;
 
  private:

@@ -17,8 +17,9 @@ enum class MotionState : std::uint8_t {
   kEnded,
 };
 
-/// Feed override and feed hold between whoever operates the run and the motion thread, and what the
-/// motion thread shows in return. Every member may be called from every thread; none waits.
+/// Lies between whoever operates the run and the motion thread: the operator sets feed override and
+/// feed hold, and the motion thread shows what it does. Every member may be called from every
+/// thread; none waits.
 class OperatorPanel {
  public:
   /// What is wanted.
@@ -27,7 +28,7 @@ class OperatorPanel {
     bool is_held = false;    ///< feed hold
     bool holds() const noexcept { return is_held || percent == 0.0; }
   };
-  /// What the motion shows. Each figure is a true one of the last few periods.
+  /// What the motion shows. The figures may be of different periods among the last few.
   struct Display {
     MotionState state = MotionState::kWaiting;
     double time = 0.0;       ///< since the first set point [s]
@@ -41,7 +42,8 @@ class OperatorPanel {
   }
   void hold(bool is_held) noexcept { is_held_.store(is_held, std::memory_order_relaxed); }
   Wish wish() const noexcept {
-    return {percent_.load(std::memory_order_relaxed), is_held_.load(std::memory_order_relaxed)};
+    return {.percent = percent_.load(std::memory_order_relaxed),
+            .is_held = is_held_.load(std::memory_order_relaxed)};
   }
 
   void show(const Display& display) noexcept {
@@ -52,9 +54,11 @@ class OperatorPanel {
     line_.store(display.line, std::memory_order_relaxed);
   }
   Display display() const noexcept {
-    return {state_.load(std::memory_order_relaxed), time_.load(std::memory_order_relaxed),
-            shown_percent_.load(std::memory_order_relaxed),
-            feedrate_.load(std::memory_order_relaxed), line_.load(std::memory_order_relaxed)};
+    return {.state = state_.load(std::memory_order_relaxed),
+            .time = time_.load(std::memory_order_relaxed),
+            .percent = shown_percent_.load(std::memory_order_relaxed),
+            .feedrate = feedrate_.load(std::memory_order_relaxed),
+            .line = line_.load(std::memory_order_relaxed)};
   }
 
  private:

@@ -35,7 +35,7 @@ Expected<OverrideChange> parse_change(std::string_view text) {
     return fail(ErrorCode::kUsage, fmt::format("override '{}': {:g} % is not within 0 and {:g} %",
                                                text, *percent, kHighestOverride));
   }
-  return OverrideChange{*time, *percent};
+  return OverrideChange{.time = *time, .percent = *percent};
 }
 
 }  // namespace
@@ -44,16 +44,13 @@ Expected<std::vector<OverrideChange>> parse_override_schedule(std::string_view t
   std::vector<OverrideChange> schedule;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t comma = std::min(text.find(',', begin), text.size());
-    auto change = parse_change(text.substr(begin, comma - begin));
-    if (!change) {
-      return tl::unexpected(change.error());
-    }
-    if (!schedule.empty() && change->time <= schedule.back().time) {
+    TWIN_TRY(const OverrideChange change, parse_change(text.substr(begin, comma - begin)));
+    if (!schedule.empty() && change.time <= schedule.back().time) {
       return fail(ErrorCode::kUsage, fmt::format("override at {:g} s comes after one at {:g} s; "
                                                  "the seconds have to ascend",
-                                                 change->time, schedule.back().time));
+                                                 change.time, schedule.back().time));
     }
-    schedule.push_back(*change);
+    schedule.push_back(change);
     begin = comma + 1;
   }
   return schedule;

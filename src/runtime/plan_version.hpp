@@ -10,10 +10,10 @@
 
 namespace twin::runtime {
 
-/// Where a plan starts, and how fast the path is wanted.
+/// Where a plan starts, and the override that it is made for.
 struct PlanStart {
   std::int64_t number = 0;   ///< of the plan
-  std::int64_t lead_in = 0;  ///< index of the first segment that is pushed
+  std::int64_t lead_in = 0;  ///< index of the first segment that is planned
   std::int64_t segment = 0;  ///< in which the plan starts
   double s = 0.0;            ///< from the lead-in's start [mm]
   double v = 0.0;            ///< [mm/s]

@@ -117,15 +117,20 @@ Expected<ProgramFigures> check_program(const ProgramSource& program,
 Expected<Estimate> estimate_program(const ProgramSource& program,
                                     const gcode::ReaderOptions& options,
                                     const config::MachineFile& machine,
-                                    const std::atomic<bool>* stop) {
+                                    const std::atomic<bool>* stop,
+                                    const std::function<void(feedrate::PlannedSegment&&)>& listen) {
   TWIN_TRY(gcode::Reader reader, open_program(program, options));
   TravelCheck check(program.file.string(), options.start, machine.limits);
   const auto goes_on = [stop] { return stop == nullptr || !stop->load(); };
-  TWIN_TRY(
-      const PlanFigures plan,
-      plan_program(
-          reader, machine, [&](const feedrate::PlannedSegment& /*planned*/) { return goes_on(); },
-          [&](const gcode::Block& block) { return check.add(block); }));
+  const auto sink = [&](feedrate::PlannedSegment&& planned) {
+    if (listen) {
+      listen(std::move(planned));
+    }
+    return goes_on();
+  };
+  TWIN_TRY(const PlanFigures plan,
+           plan_program(reader, machine, sink,
+                        [&](const gcode::Block& block) { return check.add(block); }));
   if (!goes_on()) {
     return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
   }

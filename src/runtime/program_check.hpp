@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "config/machine_file.hpp"
@@ -54,10 +55,11 @@ struct Estimate {
 
 /// Checks a program like check_program() and plans it in the same reading. Nothing moves.
 ///
-/// @param stop  ends it with kInterrupted; may be null
-Expected<Estimate> estimate_program(const ProgramSource& program,
-                                    const gcode::ReaderOptions& options,
-                                    const config::MachineFile& machine,
-                                    const std::atomic<bool>* stop);
+/// @param stop    ends it with kInterrupted; may be null
+/// @param listen  if given, gets each planned segment
+Expected<Estimate> estimate_program(
+    const ProgramSource& program, const gcode::ReaderOptions& options,
+    const config::MachineFile& machine, const std::atomic<bool>* stop,
+    const std::function<void(feedrate::PlannedSegment&&)>& listen = {});
 
 }  // namespace twin::runtime

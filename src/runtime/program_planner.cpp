@@ -29,6 +29,13 @@ ProgramPlanner::ProgramPlanner(BlockSource blocks, const config::MachineFile& ma
           machine, PlanStart{.percent = percent},
           replans == Replans::kOnRequest ? Remembers::kPhases : Remembers::kNothing)) {}
 
+void ProgramPlanner::preload(std::deque<feedrate::PlannedSegment>&& segments,
+                             const PlanFigures& figures) {
+  older_ = std::move(segments);
+  figures_ = figures;
+  is_all_read_ = true;
+}
+
 Expected<void> ProgramPlanner::plan_ahead(std::size_t segments) {
   while (waiting() < segments && !is_all_read_) {
     TWIN_CHECK(read_on());

@@ -44,6 +44,8 @@ class ProgramPlanner {
   ProgramPlanner& operator=(const ProgramPlanner&) = delete;
   ~ProgramPlanner() = default;
 
+  /// Starts with the whole path planned already. @param segments  of the first plan
+  void preload(std::deque<feedrate::PlannedSegment>&& segments, const PlanFigures& figures);
   /// Reads and plans on until so many segments wait, or the whole path is planned.
   Expected<void> plan_ahead(std::size_t segments);
 

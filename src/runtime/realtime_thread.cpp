@@ -45,7 +45,7 @@ RealtimeThread::RealtimeThread(const RealtimeSettings& settings) {
     stay_on(settings.cpu);
   }
   if (settings.priority > 0) {
-    take_priority(settings.priority);
+    set_priority(settings.priority);
   }
 }
 
@@ -73,7 +73,7 @@ void RealtimeThread::stay_on(int cpu) {
   }
 }
 
-void RealtimeThread::take_priority(int priority) {
+void RealtimeThread::set_priority(int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
   if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);

@@ -10,8 +10,8 @@ namespace twin::runtime {
 /// Makes the calling thread a real-time thread, as far as the system lets it: SCHED_FIFO priority,
 /// one CPU, memory locked, its stack touched beforehand.
 ///
-/// What could not be had is said in notes(), and the run goes on without it. Memory is unlocked at
-/// the end.
+/// Where the system refuses something, notes() says so, and the run goes on without it. The memory
+/// is unlocked at the end.
 class RealtimeThread {
  public:
   explicit RealtimeThread(const RealtimeSettings& settings);
@@ -25,7 +25,7 @@ class RealtimeThread {
  private:
   void lock_memory();
   void stay_on(int cpu);
-  void take_priority(int priority);
+  void set_priority(int priority);
 
   std::vector<std::string> notes_;
   bool has_locked_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -26,10 +27,15 @@ namespace {
 constexpr std::size_t kSampleBuffer = 16384;
 constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
 
+constexpr std::size_t kMostKept =
+    4096;  // segments of a plan that a run follows without another one
+
 /// What is known of a run before it starts.
 struct Outlook {
   ProgramFigures program;
-  std::optional<double> planned_time;  // [s]
+  std::optional<PlanFigures> plan;
+  std::deque<feedrate::PlannedSegment> segments;  // of the plan, if is_kept
+  bool is_kept = false;                           // the run follows this plan
 };
 
 /// Whether the path may be planned again while it is followed.
@@ -53,7 +59,7 @@ std::unique_ptr<RunPlanning> make_planning(const RunRequest& request, ProgramPla
 /// One run: its threads and what they share.
 class Run {
  public:
-  Run(const RunRequest& request, const Outlook& outlook, SharedBlocks& blocks, Recorder&& recorder)
+  Run(const RunRequest& request, Outlook& outlook, SharedBlocks& blocks, Recorder&& recorder)
       : request_(request),
         outlook_(outlook),
         recorder_(std::move(recorder)),
@@ -67,7 +73,12 @@ class Run {
         cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period,
                request.machine.safety, request.machine.limits.feedrate),
         feed_(interpolator_, planning_->supply(), planning_->replanning(), panel_,
-              feed_options(request, first_percent_)) {}
+              feed_options(request, first_percent_)) {
+    if (outlook.is_kept) {
+      planner_.preload(std::move(outlook.segments), *outlook.plan);
+      blocks.drop_first();
+    }
+  }
 
   Expected<RunResult> execute();
 
@@ -205,7 +216,7 @@ results::Summary Run::summarise(double wall_time) {
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = machine.period;
   put_into(summary, figures, machine.path.planner == Planner::kCertified);
-  summary.planned_time = outlook_.planned_time.value_or(figures.time);
+  summary.planned_time = outlook_.plan ? outlook_.plan->time : figures.time;
   summary.overrides = feed_.records();
   summary.notes = machine.notes;
   summary.version = version();
@@ -260,20 +271,34 @@ Expected<RunResult> Run::execute() {
   return result;
 }
 
-/// Reads the whole program before anything moves, and plans it where a cycle time is wanted.
+/// Reads the whole program before anything moves, and plans it where a cycle time is wanted. A plan
+/// that is not too long, and that nothing can change on the way, is the one that the run follows.
 Expected<Outlook> look_at(const RunRequest& request) {
   const gcode::ReaderOptions options = reader_options(request);
   if (request.hal == nullptr && request.overrides.empty()) {
     TWIN_TRY(const ProgramFigures program,
              check_program(request.program, options, request.machine.limits));
-    return Outlook{.program = program, .planned_time = std::nullopt};
+    return Outlook{.program = program, .plan = std::nullopt, .segments = {}};
   }
+  Outlook outlook{.program = {}, .plan = std::nullopt, .segments = {}};
+  outlook.is_kept = !has_control(request);
   TWIN_TRY(const Estimate estimate,
-           estimate_program(request.program, options, request.machine, request.stop));
+           estimate_program(request.program, options, request.machine, request.stop,
+                            [&outlook](feedrate::PlannedSegment&& planned) {
+                              outlook.is_kept =
+                                  outlook.is_kept && outlook.segments.size() < kMostKept;
+                              if (outlook.is_kept) {
+                                outlook.segments.push_back(std::move(planned));
+                              } else {
+                                outlook.segments.clear();
+                              }
+                            }));
+  outlook.program = estimate.program;
+  outlook.plan = estimate.plan;
   if (request.estimated) {
     request.estimated(estimate.plan.time);
   }
-  return Outlook{.program = estimate.program, .planned_time = estimate.plan.time};
+  return outlook;
 }
 
 /// Makes the folder of the results, and that of the plots in it.
@@ -288,7 +313,7 @@ Expected<void> make_folders(const std::filesystem::path& directory) {
 }  // namespace
 
 Expected<RunResult> run_program(const RunRequest& request) {
-  TWIN_TRY(const Outlook outlook, look_at(request));
+  TWIN_TRY(Outlook outlook, look_at(request));
   TWIN_CHECK(make_folders(request.directory));
   hal::ActiveMachine machine(request.hal);
   TWIN_CHECK(machine.start(request.machine.period));

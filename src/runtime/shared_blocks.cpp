@@ -16,6 +16,14 @@ std::size_t SharedBlocks::stored() const {
   return kept_.size();
 }
 
+void SharedBlocks::drop_first() {
+  const std::lock_guard lock(mutex_);
+  if (faster_ == 1) {
+    kept_.clear();
+  }
+  is_shared_ = false;
+}
+
 Expected<std::optional<gcode::Block>> SharedBlocks::next(std::size_t side) {
   Chunk& chunk = chunks_[side];
   if (chunk.next == chunk.blocks.size()) {
@@ -46,7 +54,9 @@ Expected<void> SharedBlocks::fetch(std::size_t side) {
     if (!block || !*block) {
       break;  // an error comes again when the blocks before it have been used
     }
-    kept_.push_back(**block);
+    if (is_shared_) {
+      kept_.push_back(**block);
+    }
     chunk.blocks.push_back(*std::move(*block));
   }
   return {};

@@ -40,6 +40,9 @@ class SharedBlocks {
     return [this] { return next(1); };
   }
 
+  /// The first source is not used any more: nothing is kept for it.
+  void drop_first();
+
   /// Blocks that are kept for the slower of the two.
   std::size_t stored() const;
 
@@ -57,6 +60,7 @@ class SharedBlocks {
   gcode::Reader reader_;
   std::deque<gcode::Block> kept_;  // that the slower side has not got yet
   std::size_t faster_ = 0;         // side that has got them
+  bool is_shared_ = true;          // both sides are in use
 };
 
 }  // namespace twin::runtime

@@ -47,7 +47,13 @@ std::optional<SwitchPlace> find_switch_place(const std::deque<SegmentPhases>& pl
         const bool is_at_end = is_rest || (i + 1 == count && *t == phase.duration);
         const double v = m.v > kRest ? m.v : 0.0;
         if (is_at_end || m.s < segment.length - kSegmentEnd) {
-          return SwitchPlace{segment.index, i, *t, is_at_end, m.s, v, passed + *t - begin};
+          return SwitchPlace{.segment = segment.index,
+                             .phase = i,
+                             .time = *t,
+                             .is_at_end = is_at_end,
+                             .s = m.s,
+                             .v = v,
+                             .after = passed + *t - begin};
         }
       }
       passed += phase.duration - begin;

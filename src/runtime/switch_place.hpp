@@ -33,12 +33,13 @@ struct SwitchPlace {
 
 /// The first such place at least `margin` after another one.
 ///
-/// Within a phase of constant jerk it is at t = -a / j; in a hold it is anywhere, so exactly at the
-/// margin. A rest is no place inside but at its end.
+/// In a phase of constant jerk the acceleration vanishes at t = -a / j. In a phase of constant
+/// feedrate it is zero throughout, so the place is exactly at the margin. A rest has such a place at
+/// its end only.
 ///
 /// @param plan       successive segments, the one of `from` among them
-/// @param margin     time of motion [s]
-/// @param tolerance  of a tangential acceleration that is none [mm/s^2]
+/// @param margin     least time of motion from `from` on [s]
+/// @param tolerance  largest tangential acceleration that counts as zero [mm/s^2]
 /// @returns nothing where the plan known so far has no such place
 std::optional<SwitchPlace> find_switch_place(const std::deque<SegmentPhases>& plan,
                                              const motion::PlanPlace& from, double margin,

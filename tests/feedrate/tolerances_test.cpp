@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 #include "tests/support/random_program.hpp"
 

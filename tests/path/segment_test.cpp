@@ -90,7 +90,7 @@ TEST(MakeSegment, OfAnExactStopBlockStopsAtItsEnd) {
 FittedCurve circle_curve(double radius, double chord, int count) {
   geometry::Fitter fitter;
   FittedCurve fitted;
-  EXPECT_EQ(fitter.fit(testing::circle_points(radius, chord, count), {}, {}, fitted.curve),
+  EXPECT_EQ(fitter.fit(test::circle_points(radius, chord, count), {}, {}, fitted.curve),
             geometry::FitResult::kFitted);
   measure(fitted);
   return fitted;

@@ -8,7 +8,7 @@
 
 #include "results/metrics/limit_audit.hpp"
 #include "runtime/feed_control.hpp"
-#include "tests/runtime/planned.hpp"
+#include "tests/support/planned.hpp"
 
 namespace twin::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/runtime/planned.hpp"
+#include "tests/support/planned.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/temp_folder.hpp"
 

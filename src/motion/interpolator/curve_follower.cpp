@@ -25,9 +25,9 @@ double CurveFollower::integrated(const geometry::Curve& curve, const feedrate::P
 
 path::PathPoint CurveFollower::follow(const path::FittedCurve& fitted,
                                       const feedrate::PathMotion& to, double elapsed, double period,
-                                      bool corrects) noexcept {
+                                      Basis basis) noexcept {
   const geometry::Curve& curve = fitted.curve;
-  if (corrects || update_ == ParameterUpdate::kCorrected) {
+  if (basis == Basis::kArcLength || update_ == ParameterUpdate::kCorrected) {
     const double predicted = has_u_ ? taylor_step(at_u_, u_, to.v, to.a, period) : to.s;
     u_ = corrected_parameter(curve, fitted.arc_length, to.s, predicted);
   } else {

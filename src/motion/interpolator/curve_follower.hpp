@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "feedrate/profile/phases.hpp"
 #include "motion/interpolator/interpolator_settings.hpp"
 #include "path/segment.hpp"
@@ -13,6 +15,12 @@ namespace twin::motion {
 /// as published; their error adds up along a curve and ends with it.
 class CurveFollower {
  public:
+  /// What gives the parameter of a set point.
+  enum class Basis : std::uint8_t {
+    kUpdate,     ///< the parameter update of the settings
+    kArcLength,  ///< the planned arc length, whatever the update: braking and after it
+  };
+
   explicit CurveFollower(ParameterUpdate update) : update_(update) {}
 
   /// A new segment begins, with this motion. Real-time safe.
@@ -26,10 +34,9 @@ class CurveFollower {
   /// @param to       motion along the path there
   /// @param elapsed  time since the last set point, or since the curve's begin if that is later [s]
   /// @param period   interpolation period T [s]
-  /// @param corrects by the arc length, whatever the update (braking, resuming)
   /// @note Real-time safe.
   path::PathPoint follow(const path::FittedCurve& fitted, const feedrate::PathMotion& to,
-                         double elapsed, double period, bool corrects) noexcept;
+                         double elapsed, double period, Basis basis) noexcept;
 
  private:
   double integrated(const geometry::Curve& curve, const feedrate::PathMotion& to,

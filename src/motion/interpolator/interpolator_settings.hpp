@@ -15,8 +15,8 @@ enum class ParameterUpdate : std::uint8_t {
 /// What happens in the period in which a curve ends.
 enum class CurveEnd : std::uint8_t {
   kCarry,  ///< the remainder of the period is travelled on the next segment
-  kLand,  ///< the set point lands on the curve's end, and the remainder is lost, as steps 1 to 4 of
-          ///< [WY09, Section 3.3] have it
+  kLand,   ///< the set point lands on the curve's end, and the remainder is lost, as steps 1 to 4
+           ///< of [WY09, Section 3.3] have it
 };
 
 /// Variants of the interpolator.

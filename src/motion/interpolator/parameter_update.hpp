@@ -20,15 +20,19 @@ double taylor_step(const geometry::Derivatives& at, double u, double feedrate, d
 double first_order_step(const geometry::Derivatives& at, double u, double feedrate,
                         double period) noexcept;
 
-/// Classical Runge-Kutta step of du/dt = V(t) / |C'(u)| over a period T, with the feedrate at its
-/// begin, middle and end [mm/s]. @p at are the derivatives at u.
+/// Classical Runge-Kutta step of du/dt = V(t) / |C'(u)| over a period T.
+///
+/// @param at        derivatives at u
+/// @param feedrate  V at the begin, in the middle and at the end of the period [mm/s]
 /// @note Real-time safe.
 double runge_kutta_step(const geometry::Curve& curve, const geometry::Derivatives& at, double u,
                         const std::array<double, 3>& feedrate, double period) noexcept;
 
-/// Parameter of the place at arc length s: the Taylor step predicts it, and where it misses s by
-/// more than the arc length can tell, Newton steps on s(u) correct it. The step from one sample to
-/// the next is then exact, and no error adds up along the curve.
+/// Parameter of the place at arc length s.
+///
+/// The Taylor step predicts it. Where the prediction misses s by more than the arc length can tell,
+/// Newton steps on s(u) correct it. The step from one set point to the next is then exact, and no
+/// error adds up along the curve.
 /// @note Real-time safe.
 double corrected_parameter(const geometry::Curve& curve, const geometry::ArcLength& arc_length,
                            double s, double predicted) noexcept;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "motion/safety/axis_view.hpp"
 #include "motion/safety/safety_settings.hpp"
@@ -14,21 +13,10 @@ namespace twin::motion {
 /// counting rounds off.
 class CountStep {
  public:
-  CountStep(const AxisFacts& axis, const SafetySettings& settings) noexcept
-      : period_(axis.period),
-        speed_(settings.count_step_ratio * axis.feedrate),
-        rounding_(2.0 * std::abs(axis.mm_per_count)) {}
+  CountStep(const AxisFacts& axis, const SafetySettings& settings) noexcept;
 
-  std::optional<Finding> check(const AxisView& view) noexcept {
-    const double step = has_last_ ? std::abs(view.measured - last_) : 0.0;
-    const double limit = speed_ * std::max(period_, view.interval) + rounding_;
-    has_last_ = true;
-    last_ = view.measured;
-    if (step > limit) {
-      return Finding{Kind::kCountStep, step, limit};
-    }
-    return std::nullopt;
-  }
+  /// Looks at a period. Real-time safe.
+  std::optional<Finding> check(const AxisView& view) noexcept;
 
  private:
   double period_;    // [s]

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "motion/safety/axis_view.hpp"
 #include "motion/safety/safety_settings.hpp"
 
@@ -10,9 +12,8 @@ class DriveAlarm {
  public:
   DriveAlarm(const AxisFacts& /*axis*/, const SafetySettings& /*settings*/) noexcept {}
 
-  std::optional<Finding> check(const AxisView& view) noexcept {
-    return view.alarm ? std::optional(Finding{Kind::kDriveAlarm, 1.0, 0.0}) : std::nullopt;
-  }
+  /// Looks at a period. Real-time safe.
+  std::optional<Finding> check(const AxisView& view) noexcept;
 };
 
 /// Servo ready that went off after it had come.
@@ -20,11 +21,8 @@ class ReadyLost {
  public:
   ReadyLost(const AxisFacts& /*axis*/, const SafetySettings& /*settings*/) noexcept {}
 
-  std::optional<Finding> check(const AxisView& view) noexcept {
-    const bool is_lost = was_ready_ && !view.servo_ready;
-    was_ready_ = was_ready_ || view.servo_ready;
-    return is_lost ? std::optional(Finding{Kind::kReadyLost, 0.0, 1.0}) : std::nullopt;
-  }
+  /// Looks at a period. Real-time safe.
+  std::optional<Finding> check(const AxisView& view) noexcept;
 
  private:
   bool was_ready_ = false;

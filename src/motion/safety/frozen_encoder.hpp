@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <optional>
 
 #include "motion/safety/axis_view.hpp"
 #include "motion/safety/safety_settings.hpp"
@@ -10,29 +10,15 @@ namespace twin::motion {
 
 /// Counts that stand while the command moves: a broken encoder wire, a stuck counter.
 ///
-/// Looks at the range that the command has covered since the counts last changed, so that a command
-/// that swings within less than a count is none. After a late period it begins anew: the command
-/// has gone on by the clock, and the counts may be older than that.
+/// The monitor looks at the range that the command has covered since the counts last changed, so
+/// that a command that swings within less than a count does not trip it. After a late period it
+/// begins anew: the command has gone on by the clock, and the counts may be older than that.
 class FrozenEncoder {
  public:
-  FrozenEncoder(const AxisFacts& axis, const SafetySettings& settings) noexcept
-      : period_(axis.period), limit_(settings.frozen_encoder + 2.0 * std::abs(axis.mm_per_count)) {}
+  FrozenEncoder(const AxisFacts& axis, const SafetySettings& settings) noexcept;
 
-  std::optional<Finding> check(const AxisView& view) noexcept {
-    if (!has_last_ || view.counts != counts_ || is_late(view, period_)) {
-      has_last_ = true;
-      counts_ = view.counts;
-      lowest_ = highest_ = view.command;
-      return std::nullopt;
-    }
-    lowest_ = std::min(lowest_, view.command);
-    highest_ = std::max(highest_, view.command);
-    const double way = highest_ - lowest_;
-    if (way > limit_) {
-      return Finding{Kind::kEncoderFrozen, way, limit_};
-    }
-    return std::nullopt;
-  }
+  /// Looks at a period. Real-time safe.
+  std::optional<Finding> check(const AxisView& view) noexcept;
 
  private:
   double period_;         // [s]

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "motion/safety/axis_view.hpp"
 #include "motion/safety/safety_settings.hpp"
 
@@ -8,16 +10,10 @@ namespace twin::motion {
 /// A drive command that is cut to +-10 V for too long: the axis cannot follow.
 class Saturation {
  public:
-  Saturation(const AxisFacts& /*axis*/, const SafetySettings& settings) noexcept
-      : limit_(settings.saturation_time) {}
+  Saturation(const AxisFacts& axis, const SafetySettings& settings) noexcept;
 
-  std::optional<Finding> check(const AxisView& view) noexcept {
-    time_ = view.is_saturated ? time_ + view.interval : 0.0;
-    if (time_ > limit_) {
-      return Finding{Kind::kSaturation, time_, limit_};
-    }
-    return std::nullopt;
-  }
+  /// Looks at a period. Real-time safe.
+  std::optional<Finding> check(const AxisView& view) noexcept;
 
  private:
   double limit_;       // [s]

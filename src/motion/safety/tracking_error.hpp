@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <optional>
 
 #include "motion/safety/axis_view.hpp"
 #include "motion/safety/safety_settings.hpp"
@@ -16,24 +16,10 @@ namespace twin::motion {
 /// one at once.
 class TrackingError {
  public:
-  TrackingError(const AxisFacts& /*axis*/, const SafetySettings& settings) noexcept
-      : least_(settings.tracking_error),
-        per_feedrate_(settings.tracking_error_per_feedrate),
-        filter_time_(settings.tracking_filter_time) {}
+  TrackingError(const AxisFacts& axis, const SafetySettings& settings) noexcept;
 
-  std::optional<Finding> check(const AxisView& view) noexcept {
-    const double error = std::abs(view.command - view.measured);
-    const double limit = least_ + per_feedrate_ * std::abs(view.feedrate);
-    if (error <= limit) {
-      exceeded_for_ = 0.0;
-      return std::nullopt;
-    }
-    exceeded_for_ += view.interval;
-    if (exceeded_for_ > filter_time_ || !(error <= 2.0 * limit)) {
-      return Finding{Kind::kTrackingError, error, limit};
-    }
-    return std::nullopt;
-  }
+  /// Looks at a period. Real-time safe.
+  std::optional<Finding> check(const AxisView& view) noexcept;
 
  private:
   double least_;               // e_0 [mm]

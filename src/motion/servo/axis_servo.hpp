@@ -31,8 +31,8 @@ class AxisServo {
   /// @param period             interpolation period T > 0 [s]
   AxisServo(const Gains& gains, double mm_per_s_per_volt, double period) noexcept;
 
-  /// Drive command of this period [V], within +-10 V. Real-time safe. @param measured measured
-  /// position [mm]
+  /// Drive command of this period [V], within +-10 V. Real-time safe.
+  /// @param measured  measured position [mm]
   double update(const Reference& reference, double measured) noexcept;
 
   /// Forgets the last error, as after a change of the set point by hand. Real-time safe.

@@ -41,14 +41,10 @@ Expected<CsvFile> CsvFile::create(std::filesystem::path target, std::filesystem:
     header.append(column).push_back(',');
   }
   header.back() = '\n';
-  auto file = AtomicFile::create(std::move(target), std::move(temporary), on_abandon);
-  if (!file) {
-    return tl::unexpected(std::move(file.error()));
-  }
-  if (auto written = file->write(header); !written) {
-    return tl::unexpected(std::move(written.error()));
-  }
-  return CsvFile(std::move(*file));
+  TWIN_TRY(AtomicFile file,
+           AtomicFile::create(std::move(target), std::move(temporary), on_abandon));
+  TWIN_CHECK(file.write(header));
+  return CsvFile(std::move(file));
 }
 
 Expected<void> CsvFile::write(std::span<const double> values) {

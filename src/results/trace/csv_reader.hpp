@@ -41,11 +41,8 @@ class CsvReader {
   Expected<void> for_each_row(Take&& take) {
     std::vector<double> row(chosen_);
     for (;;) {
-      const auto has_row = next(row);
+      TWIN_TRY(const bool has_row, next(row));
       if (!has_row) {
-        return tl::unexpected(has_row.error());
-      }
-      if (!*has_row) {
         return {};
       }
       take(std::span<const double>(row));
@@ -80,14 +77,9 @@ class CsvReader {
 template <class Take>
 Expected<void> read_rows(const std::filesystem::path& file,
                          std::span<const std::string_view> columns, Take&& take) {
-  auto reader = CsvReader::open(file);
-  if (!reader) {
-    return tl::unexpected(std::move(reader.error()));
-  }
-  if (auto chosen = reader->select(columns); !chosen) {
-    return chosen;
-  }
-  return reader->for_each_row(std::forward<Take>(take));
+  TWIN_TRY(CsvReader reader, CsvReader::open(file));
+  TWIN_CHECK(reader.select(columns));
+  return reader.for_each_row(std::forward<Take>(take));
 }
 
 }  // namespace twin::results

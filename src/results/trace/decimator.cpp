@@ -122,9 +122,7 @@ Expected<Table> load_decimated(const std::filesystem::path& file,
   std::iota(watched.begin(), watched.end(), std::size_t{0});
   Decimator decimator(columns.size(), std::move(watched), max_rows);
   const auto push = [&decimator](std::span<const double> row) { decimator.push(row); };
-  if (auto read = read_rows(file, columns, push); !read) {
-    return tl::unexpected(std::move(read.error()));
-  }
+  TWIN_CHECK(read_rows(file, columns, push));
   return decimator.finish();
 }
 

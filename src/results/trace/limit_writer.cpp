@@ -13,11 +13,8 @@ Expected<LimitWriter> LimitWriter::create(const std::filesystem::path& directory
   const std::filesystem::path target = directory / kLimitName;
   std::filesystem::path temporary = target;
   temporary += ".tmp";
-  auto file = CsvFile::create(target, std::move(temporary), columns);
-  if (!file) {
-    return tl::unexpected(std::move(file.error()));
-  }
-  return LimitWriter(std::move(*file));
+  TWIN_TRY(CsvFile file, CsvFile::create(target, std::move(temporary), columns));
+  return LimitWriter(std::move(file));
 }
 
 Expected<void> LimitWriter::write(double t, double limit) {
@@ -26,9 +23,7 @@ Expected<void> LimitWriter::write(double t, double limit) {
   }
   const bool is_same = limit == last_limit_;
   if (!is_same) {
-    if (auto flushed = flush(); !flushed) {
-      return flushed;
-    }
+    TWIN_CHECK(flush());
   }
   last_t_ = t;
   last_limit_ = limit;

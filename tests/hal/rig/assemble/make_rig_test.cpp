@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hal/rig/assemble/look.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::rig::assemble {
 namespace make_rig_test {
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 RigSetup setup_without_cards() {
   RigSetup setup;
-  setup.table = hal::testing::default_table();
+  setup.table = test::default_table();
   setup.wiring.sysfs = "/no/such/sys";
   setup.shared_name = "/twin-no-such-rig";
   return setup;

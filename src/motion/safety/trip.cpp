@@ -1,8 +1,8 @@
+#include "motion/safety/trip.hpp"
+
 #include <fmt/format.h>
 
 #include <string_view>
-
-#include "motion/safety/trip.hpp"
 
 namespace twin::motion {
 namespace {

@@ -1,0 +1,260 @@
+#include "motion/interpolator/phase_clock.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace twin::motion {
+namespace {
+
+constexpr double kRestRounding = 1e-6;  // place where braking ends [mm]
+
+}  // namespace
+
+PhaseClock::~PhaseClock() {
+  if (current_ != nullptr) {
+    source_.release(current_);
+  }
+}
+
+/// Fetches the next segment. Where another plan goes on inside a segment, it is the same piece of
+/// path again.
+bool PhaseClock::fetch() noexcept {
+  const feedrate::PlannedSegment* next = source_.next();
+  if (next == nullptr) {
+    return false;
+  }
+  const bool is_same = current_ != nullptr && current_->index == next->index;
+  if (current_ != nullptr) {
+    passed_ += is_same ? 0.0 : current_->segment.length;
+    source_.release(current_);
+  }
+  current_ = next;
+  if (!is_same) {
+    elapsed_ = 0.0;
+    is_on_curve_end_ = false;
+  }
+  return true;
+}
+
+/// Follows the plan that was armed from here on.
+void PhaseClock::take_over() noexcept {
+  stand_ = feedrate::motion_at(current_->phases[armed_->phase], armed_->time);
+  plan_ = armed_->plan;
+  armed_.reset();
+  source_.adopt(plan_);
+}
+
+Status PhaseClock::advance(double period) noexcept {
+  switch (state_) {
+    case State::kEnded:
+    case State::kEndedByBraking:
+      return Status::kDone;
+    case State::kAtRest:
+      return Status::kAtRest;
+    case State::kIdle:
+      if (!fetch()) {
+        return source_.is_finished() ? Status::kDone : Status::kStarved;
+      }
+      state_ = State::kFollowing;
+      return Status::kMoving;
+    default:
+      break;
+  }
+  const double dt = has_starved_ ? 0.0 : period;
+  const Status status = state_ == State::kBraking ? follow_brake(dt) : follow(dt);
+  has_starved_ = status == Status::kStarved;
+  return status;
+}
+
+/// No segment was there: the path has ended, or the next one comes later.
+Status PhaseClock::end_or_starve(State end) noexcept {
+  if (!source_.is_finished()) {
+    return Status::kStarved;
+  }
+  stand_ = {motion().s, 0.0, 0.0};
+  state_ = end;
+  return Status::kMoving;
+}
+
+/// Whether an instant of its own falls on the current segment's end, just reached. The rest of the
+/// period is lost then.
+bool PhaseClock::land() noexcept {
+  if (curve_end_ != CurveEnd::kLand || is_on_curve_end_ ||
+      !std::holds_alternative<path::FittedCurve>(current_->segment.geometry)) {
+    return false;
+  }
+  is_on_curve_end_ = true;
+  pending_ = 0.0;
+  return true;
+}
+
+/// Lets the pending time pass in the phases of the current segment, up to the place of a switch.
+/// @returns false if the segment ended before the time did
+bool PhaseClock::pass_phases() noexcept {
+  const std::size_t count = ends_here() ? armed_->phase + 1 : current_->phases.size();
+  for (; phase_ < count; ++phase_) {
+    const bool is_cut = ends_here() && phase_ == armed_->phase;
+    const double left = (is_cut ? armed_->time : current_->phases[phase_].duration) - time_;
+    if (pending_ < left) {
+      time_ += pending_;
+      elapsed_ += pending_;
+      pending_ = 0.0;
+      return true;
+    }
+    pending_ -= left;
+    elapsed_ += left;
+    time_ = 0.0;
+  }
+  return false;
+}
+
+Status PhaseClock::follow(double dt) noexcept {
+  pending_ += dt;
+  elapsed_ = 0.0;
+  for (;;) {
+    if (state_ == State::kFollowing) {
+      if (pass_phases()) {
+        return Status::kMoving;
+      }
+      if (ends_here()) {
+        take_over();
+        state_ = State::kBetweenPlans;
+      } else if (land()) {
+        return Status::kMoving;
+      }
+    }
+    if (!fetch()) {
+      return end_or_starve(State::kEnded);
+    }
+    state_ = State::kFollowing;
+    phase_ = 0;
+  }
+}
+
+Status PhaseClock::follow_brake(double dt) noexcept {
+  time_ = std::min(time_ + pending_ + dt, brake_.duration);
+  pending_ = 0.0;
+  // Where the plan rests at the segment's end, so does braking, but for rounding.
+  const auto rests_here = [this] {
+    return brake_.phases.front().s + brake_.distance <= current_->segment.length + kRestRounding;
+  };
+  for (double s = motion().s; s > current_->segment.length && !rests_here(); s = motion().s) {
+    const std::int64_t index = current_->index;
+    const double length = current_->segment.length;
+    if (ends_here()) {
+      take_over();
+    }
+    if (!fetch()) {
+      return end_or_starve(State::kEndedByBraking);  // rest lies beyond the end by rounding
+    }
+    if (current_->index == index) {
+      continue;
+    }
+    for (feedrate::Phase& phase : brake_.phases) {
+      phase.s -= length;
+    }
+  }
+  if (time_ >= brake_.duration) {
+    stand_ = {std::clamp(motion().s, 0.0, current_->segment.length), 0.0, 0.0};
+    is_on_curve_end_ = false;
+    state_ = State::kAtRest;
+  }
+  return Status::kMoving;
+}
+
+void PhaseClock::brake(const feedrate::RampLimits& limits) noexcept {
+  if (state_ == State::kIdle) {
+    state_ = State::kEnded;
+  }
+  if (state_ != State::kFollowing && state_ != State::kBetweenPlans) {
+    return;
+  }
+  brake_ = brake_from_here(limits);
+  time_ = 0.0;
+  state_ = State::kBraking;
+}
+
+feedrate::Brake PhaseClock::brake_from_here(feedrate::RampLimits limits) const noexcept {
+  const feedrate::RampLimits& planned = current_->brake;
+  if (planned.acceleration > 0.0) {
+    limits.acceleration = std::min(limits.acceleration, planned.acceleration);
+    limits.jerk = std::min(limits.jerk, planned.jerk);
+  }
+  return feedrate::make_brake(motion(), limits);
+}
+
+bool PhaseClock::arm(const PlanSwitch& at) noexcept {
+  if (state_ != State::kFollowing) {
+    return false;
+  }
+  const bool is_here = current_->index == at.segment;
+  const bool is_phase_ahead = phase_ < at.phase || (phase_ == at.phase && time_ <= at.time);
+  if (current_->index > at.segment || (is_here && !is_phase_ahead)) {
+    return false;
+  }
+  armed_ = at;
+  return true;
+}
+
+void PhaseClock::adopt(std::int64_t plan) noexcept {
+  if (state_ == State::kAtRest) {
+    armed_.reset();
+    plan_ = plan;
+    source_.adopt(plan);
+  }
+}
+
+void PhaseClock::resume() noexcept {
+  if (state_ == State::kAtRest) {
+    state_ = State::kBetweenPlans;
+    phase_ = 0;
+    time_ = 0.0;
+  }
+}
+
+void PhaseClock::finish() noexcept {
+  if (state_ == State::kAtRest) {
+    state_ = State::kEndedByBraking;
+  }
+}
+
+feedrate::PathMotion PhaseClock::motion() const noexcept {
+  switch (state_) {
+    case State::kBraking: {
+      double t = time_;
+      std::size_t i = 0;
+      for (; i + 1 < brake_.phases.size() && t > brake_.phases[i].duration; ++i) {
+        t -= brake_.phases[i].duration;
+      }
+      return feedrate::motion_at(brake_.phases[i], t);
+    }
+    case State::kIdle:
+    case State::kFollowing:
+      return phase_ < current_->phases.size() ? feedrate::motion_at(current_->phases[phase_], time_)
+                                              : motion_after_phases();
+    default:
+      return stand_;
+  }
+}
+
+/// Motion at the end of the current segment.
+feedrate::PathMotion PhaseClock::motion_after_phases() const noexcept {
+  feedrate::PathMotion end{current_->segment.length, 0.0, 0.0};
+  if (!current_->phases.empty()) {
+    const feedrate::Phase& last = current_->phases.back();
+    end.v = feedrate::motion_at(last, last.duration).v;
+  }
+  return end;
+}
+
+PathInstant PhaseClock::instant() const noexcept {
+  PathInstant instant{.motion = motion(),
+                      .elapsed = elapsed_,
+                      .is_curve_end = is_on_curve_end_,
+                      .is_braking = state_ == State::kBraking || state_ == State::kAtRest ||
+                                    state_ == State::kEndedByBraking};
+  instant.motion.s = std::clamp(instant.motion.s, 0.0, current_->segment.length);
+  return instant;
+}
+
+}  // namespace twin::motion
