@@ -18,7 +18,7 @@ namespace tolerances_test {
 /// else changes: every product, quotient and root is rounded as before.
 struct Drawn {
   std::vector<gcode::Block> blocks;
-  testing::PlanSettings settings;
+  test::PlanSettings settings;
 };
 
 Drawn drawn(std::vector<gcode::Block> blocks, double scale, Planner planner) {
@@ -30,7 +30,7 @@ Drawn drawn(std::vector<gcode::Block> blocks, double scale, Planner planner) {
     block.arc.radius *= scale;
     block.arc.rise *= scale;
   }
-  testing::PlanSettings settings;
+  test::PlanSettings settings;
   settings.path.planner = planner;
   settings.path.curves = CurveKind::kNone;  // fitting has tolerances of its own
   settings.path.chord_error *= scale;
@@ -45,7 +45,7 @@ Drawn drawn(std::vector<gcode::Block> blocks, double scale, Planner planner) {
 }
 
 double planned_time(const Drawn& drawn) {
-  const testing::Plan plan = testing::plan(drawn.blocks, drawn.settings);
+  const test::Plan plan = test::plan(drawn.blocks, drawn.settings);
   EXPECT_EQ(plan.fallbacks, 0);
   return plan.time;
 }
@@ -53,7 +53,7 @@ double planned_time(const Drawn& drawn) {
 TEST(Tolerances, NoPlanHangsOnThem) {
   std::mt19937 random(11);
   for (int i = 0; i < 40; ++i) {
-    const auto blocks = testing::random_program(random, 15);
+    const auto blocks = test::random_program(random, 15);
     for (const Planner planner : {Planner::kPaper, Planner::kCertified}) {
       const double time = planned_time(drawn(blocks, 1.0, planner));
       for (const double scale : {1.0 / 64.0, 0.125, 8.0, 64.0}) {

@@ -44,7 +44,7 @@ class SetPointsOfARun : public RunProgram {
     request.program = ProgramSource::from_text(text, "text");
     MemoryTrace trace;
     request.sinks = {&trace};
-    hal::IdealMachine machine;
+    hal::ideal::IdealMachine machine;
     const auto result = run(&machine);
     ASSERT_TRUE(result && !result->failure);
     EXPECT_EQ(result->summary.program, "text");
@@ -120,7 +120,7 @@ TEST(SetPoints, BrakeOnThePathWhereTheProgramIsWrong) {
 TEST_F(RunProgram, AProgramAsTextIsTheProgramOfTheFile) {
   MemoryTrace of_file;
   MemoryTrace of_text;
-  hal::IdealMachine machine;
+  hal::ideal::IdealMachine machine;
   request.program = folder.put("part.nc", kProgram);
   request.sinks = {&of_file};
   ASSERT_TRUE(run(&machine));
