@@ -13,7 +13,7 @@ namespace {
 
 namespace rig = hal::rig;
 
-Expected<RigPorts> open_ports(RigKind kind, const Options& options,
+Expected<RigPorts> open_ports(RigKind kind, const RigArguments& options,
                               const config::MachineFile& machine) {
   if (kind == RigKind::kProcess) {
     return rig::boards::SharedRegisters::attach(shared_name(options),
@@ -57,19 +57,11 @@ rig::RigSettings settings_to_look_with(RigKind kind, const config::MachineFile& 
 
 }  // namespace
 
-Expected<RigToLookAt> open_to_look(const Options& options) {
-  auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
-  }
-  const auto kind = find_rig(options, *machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  return open_ports(*kind, options, *machine).map([&](RigPorts ports) {
-    auto settings = settings_to_look_with(*kind, *machine);
-    return RigToLookAt{std::move(*machine), *kind, std::move(settings), std::move(ports)};
-  });
+Expected<RigToLookAt> open_to_look(const RigArguments& options, config::MachineFile machine) {
+  TWIN_TRY(const RigKind kind, find_rig(options, machine));
+  TWIN_TRY(RigPorts ports, open_ports(kind, options, machine));
+  auto settings = settings_to_look_with(kind, machine);
+  return RigToLookAt{std::move(machine), kind, std::move(settings), std::move(ports)};
 }
 
 }  // namespace twin::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/options.hpp"
+#include "cli/arguments.hpp"
 #include "cli/rig_machines.hpp"
 #include "cli/rig_ports.hpp"
 #include "config/machine_file.hpp"
@@ -17,6 +17,6 @@ struct RigToLookAt {
 };
 
 /// Finds the rig of --rig and opens its registers without writing to them.
-Expected<RigToLookAt> open_to_look(const Options& options);
+Expected<RigToLookAt> open_to_look(const RigArguments& options, config::MachineFile machine);
 
 }  // namespace twin::cli

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "cli/confirmation.hpp"
 #include "cli/rig_ports.hpp"
 #include "core/atomic_file.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
@@ -101,7 +100,7 @@ std::unique_ptr<rig::RigMachine> make_real_rig(const config::MachineFile& machin
                                            guard.get());
 }
 
-Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& options,
+Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const RigArguments& options,
                                                             const config::MachineFile& machine) {
   auto attached = rig::boards::SharedRegisters::attach(shared_name(options),
                                                        rig::boards::SharedRole::kController);
@@ -120,7 +119,7 @@ Expected<std::unique_ptr<rig::RigMachine>> make_process_rig(const Options& optio
                                            guard.get());
 }
 
-Expected<std::unique_ptr<rig::RigMachine>> make_emulated_rig(const Options& options,
+Expected<std::unique_ptr<rig::RigMachine>> make_emulated_rig(const RigArguments& options,
                                                              const config::MachineFile& machine) {
   std::vector<rig::emulator::Fault> faults;
   for (const std::string& text : options.faults) {
@@ -132,7 +131,7 @@ Expected<std::unique_ptr<rig::RigMachine>> make_emulated_rig(const Options& opti
   }
   const std::shared_ptr<rig::emulator::EmulatedRig> bench(
       new rig::emulator::EmulatedRig(machine.table, machine.rig, std::move(faults)),
-      [log = options.rig_log](rig::emulator::EmulatedRig* emulated) {
+      [log = options.log](rig::emulator::EmulatedRig* emulated) {
         write_log(*emulated, log);
         delete emulated;
       });
@@ -152,16 +151,16 @@ Expected<void> look_for_real_cards(const rig::RigSettings& settings) {
 
 }  // namespace
 
-Expected<RigKind> find_rig(const Options& options, const config::MachineFile& machine) {
-  if (options.rig == "emulated") {
+Expected<RigKind> find_rig(const RigArguments& options, const config::MachineFile& machine) {
+  if (options.which == "emulated") {
     return RigKind::kEmulated;
   }
-  if (options.rig == "process") {
+  if (options.which == "process") {
     return RigKind::kProcess;
   }
   auto cards = look_for_real_cards(machine.rig);
   const bool has_process =
-      options.rig == "auto" &&
+      options.which == "auto" &&
       rig::boards::SharedRegisters::attach(shared_name(options), rig::boards::SharedRole::kObserver)
           .has_value();
   if (cards && has_process) {
@@ -174,14 +173,14 @@ Expected<RigKind> find_rig(const Options& options, const config::MachineFile& ma
   if (has_process) {
     return RigKind::kProcess;
   }
-  if (options.rig == "auto") {
+  if (options.which == "auto") {
     cards.error().message +=
         fmt::format("; nor does an emulator run (twin rig emulate, {})", shared_name(options));
   }
   return tl::unexpected(cards.error());
 }
 
-Expected<std::unique_ptr<rig::RigMachine>> make_rig(RigKind kind, const Options& options,
+Expected<std::unique_ptr<rig::RigMachine>> make_rig(RigKind kind, const RigArguments& options,
                                                     const config::MachineFile& machine) {
   rig::install_emergency_handlers();
   switch (kind) {
@@ -195,27 +194,16 @@ Expected<std::unique_ptr<rig::RigMachine>> make_rig(RigKind kind, const Options&
   return make_emulated_rig(options, machine);
 }
 
-Expected<std::unique_ptr<rig::RigMachine>> open_rig(const Options& options,
-                                                    const config::MachineFile& machine,
-                                                    const std::string& what) {
-  const auto kind = find_rig(options, machine);
-  if (!kind) {
-    return tl::unexpected(kind.error());
-  }
-  if (*kind != RigKind::kEmulated && (!options.faults.empty() || !options.rig_log.empty())) {
+Expected<std::unique_ptr<rig::RigMachine>> assemble_rig(const RigArguments& options,
+                                                        const config::MachineFile& machine) {
+  TWIN_TRY(const RigKind kind, find_rig(options, machine));
+  if (kind != RigKind::kEmulated && (!options.faults.empty() || !options.log.empty())) {
     return fail(ErrorCode::kUsage,
                 fmt::format("--fault and --rig-log are for --rig emulated, and this rig is: {}; an "
                             "emulator's process takes --fault by itself",
-                            describe(*kind)));
+                            describe(kind)));
   }
-  auto opened = make_rig(*kind, options, machine);
-  if (opened) {
-    auto confirmed = confirm_motion((*opened)->info(), options.i_know_it_moves, what);
-    if (!confirmed) {
-      return tl::unexpected(std::move(confirmed.error()));
-    }
-  }
-  return opened;
+  return make_rig(kind, options, machine);
 }
 
 hal::MachineInfo machine_info(const config::MachineFile& machine) {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/options.hpp"
+#include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "hal/rig/rig_machine.hpp"
@@ -20,19 +20,16 @@ enum class RigKind {
 
 /// Finds out which rig --rig means. "auto" is the real cards or an emulator's process, whichever is
 /// there; that both are there is an error, and that neither is one that names what was looked for.
-Expected<RigKind> find_rig(const Options& options, const config::MachineFile& machine);
+Expected<RigKind> find_rig(const RigArguments& options, const config::MachineFile& machine);
 
 /// Puts a rig together: cards, what is behind them, and, where the outputs outlive this process,
 /// the guard that watches it. Nothing is opened before configure().
-Expected<std::unique_ptr<hal::rig::RigMachine>> make_rig(RigKind kind, const Options& options,
+Expected<std::unique_ptr<hal::rig::RigMachine>> make_rig(RigKind kind, const RigArguments& options,
                                                          const config::MachineFile& machine);
 
-/// The rig of --rig, put together, and confirmed by the user if it is real.
-///
-/// @param what  what it is about to do, as in "run dolphin.nc"
-Expected<std::unique_ptr<hal::rig::RigMachine>> open_rig(const Options& options,
-                                                         const config::MachineFile& machine,
-                                                         const std::string& what);
+/// The rig of --rig, put together.
+Expected<std::unique_ptr<hal::rig::RigMachine>> assemble_rig(const RigArguments& options,
+                                                             const config::MachineFile& machine);
 
 /// Name and scales of the rig of a machine file.
 hal::MachineInfo machine_info(const config::MachineFile& machine);

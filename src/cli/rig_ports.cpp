@@ -18,8 +18,8 @@ RigPorts ports_of(rig::boards::BoardRegisters& boards, const rig::RigSettings& s
           std::make_unique<rig::boards::EmulatedPci1784>(boards.pci1784, layout)};
 }
 
-std::string shared_name(const Options& options) {
-  return options.rig_name.empty() ? rig::boards::default_shared_name() : options.rig_name;
+std::string shared_name(const RigArguments& options) {
+  return options.name.empty() ? rig::boards::default_shared_name() : options.name;
 }
 
 }  // namespace twin::cli

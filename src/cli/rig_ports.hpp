@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/options.hpp"
+#include "cli/arguments.hpp"
 #include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 #include "hal/rig/rig_settings.hpp"
@@ -22,6 +22,6 @@ RigPorts ports_of(hal::rig::boards::BoardRegisters& boards, const hal::rig::RigS
                   std::shared_ptr<void> owner = nullptr);
 
 /// Name of the shared memory that an emulator's process has: --rig-name, or the user's own.
-std::string shared_name(const Options& options);
+std::string shared_name(const RigArguments& options);
 
 }  // namespace twin::cli

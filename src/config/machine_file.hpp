@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -37,6 +38,13 @@ struct MachineFile {
   hal::mujoco::TableParams table;  ///< table.model is absolute once read
   hal::rig::RigSettings rig;       ///< cards and wires of the real machine
   std::array<studies::commissioning::HomeSettings, hal::kServoAxes> home;
+
+  /// What is not as the settings ask, or was asked for by a former name: one sentence each, to be
+  /// shown to the user.
+  std::vector<std::string> notes;
+
+  /// Appends a note, unless it is there already; nothing for an empty one.
+  void add_note(std::string note);
 };
 
 /// Reads a machine file and then applies `section.key=value` texts to it, in order.

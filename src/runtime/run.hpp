@@ -34,6 +34,8 @@ struct RunRequest {
   OperatorPanel* panel = nullptr;           ///< for override and hold by an operator
   Until until;                              ///< ends the motion early, as at the path's end
   Hooks hooks;                              ///< for tests
+  std::string command;             ///< command line or other words of the caller, for the summary
+  std::vector<std::string> notes;  ///< what the caller changed of what was asked for, the same
 };
 
 /// How far a run got.
