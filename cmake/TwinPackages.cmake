@@ -10,6 +10,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(FastFloat REQUIRED)
 find_package(pagmo REQUIRED)
 pkg_check_modules(eigen REQUIRED IMPORTED_TARGET eigen3)
+pkg_check_modules(nettle REQUIRED IMPORTED_TARGET nettle)
 pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavcodec libavformat libavutil libswscale)
 

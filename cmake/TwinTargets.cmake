@@ -38,12 +38,6 @@ function(twin_unity target batch)
   endif()
 endfunction()
 
-# Every header of a folder as a source of its own, for the target twin_headers.
-function(twin_check_headers target)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
-  target_sources(${target} INTERFACE FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${headers})
-endfunction()
-
 # twin_library(gcode SOURCES a.cpp b.cpp DEPS twin_core ... [PRIVATE_DEPS ...] [UNITY_BATCH n])
 # makes target twin_gcode from the sources of this folder.
 function(twin_library name)

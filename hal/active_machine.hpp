@@ -21,10 +21,8 @@ class ActiveMachine {
     if (machine_ == nullptr) {
       return {};
     }
-    if (auto configured = machine_->configure(period); !configured) {
-      return configured;
-    }
-    return machine_->activate();
+    TWIN_CHECK(checked(machine_->configure(period)));
+    return checked(machine_->activate());
   }
 
  private:

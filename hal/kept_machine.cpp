@@ -6,13 +6,13 @@
 
 namespace twin::hal {
 
-Expected<void> KeptMachine::configure(double period) {
+std::optional<Error> KeptMachine::configure(double period) {
   if (period_ == period) {
     return {};
   }
-  auto configured = machine_.configure(period);
-  period_ = configured ? period : 0.0;
-  return configured;
+  auto error = machine_.configure(period);
+  period_ = error ? 0.0 : period;
+  return error;
 }
 
 Status KeptMachine::read(Inputs& inputs) noexcept {

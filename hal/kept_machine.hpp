@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "hal/machine.hpp"
@@ -17,8 +18,8 @@ class KeptMachine final : public Machine {
   ~KeptMachine() override { machine_.cleanup(); }
 
   const MachineInfo& info() const noexcept override { return machine_.info(); }
-  Expected<void> configure(double period) override;
-  Expected<void> activate() override { return machine_.activate(); }
+  std::optional<Error> configure(double period) override;
+  std::optional<Error> activate() override { return machine_.activate(); }
   Status read(Inputs& inputs) noexcept override;
   Status write(const Outputs& outputs) noexcept override { return machine_.write(outputs); }
   Truth truth() const noexcept override { return machine_.truth(); }

@@ -20,12 +20,12 @@ IdealMachine::IdealMachine() {
   info_.mm_per_s_per_volt.fill(kMmPerSPerVolt);
 }
 
-Expected<void> IdealMachine::configure(double period) {
+std::optional<Error> IdealMachine::configure(double period) {
   if (!(period > 0.0) || !std::isfinite(period)) {
-    return fail(ErrorCode::kMachine, fmt::format("period {} s is not above 0", period));
+    return refusal(fmt::format("period {} s is not above 0", period));
   }
   if (state_ == State::kActive) {
-    return fail(ErrorCode::kMachine, "the ideal machine is active; deactivate it before configure");
+    return refusal("the ideal machine is active; deactivate it before configure");
   }
   fault_ = Fault::kNone;
   position_.fill(0.0);
@@ -33,9 +33,9 @@ Expected<void> IdealMachine::configure(double period) {
   return {};
 }
 
-Expected<void> IdealMachine::activate() {
+std::optional<Error> IdealMachine::activate() {
   if (state_ != State::kInactive) {
-    return fail(ErrorCode::kMachine, "the ideal machine is not inactive; configure it first");
+    return refusal("the ideal machine is not inactive; configure it first");
   }
   fault_ = Fault::kNone;
   position_.fill(0.0);

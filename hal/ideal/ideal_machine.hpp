@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "hal/machine.hpp"
@@ -20,8 +21,8 @@ class IdealMachine final : public Machine {
 
   const MachineInfo& info() const noexcept override { return info_; }
   State state() const noexcept { return state_; }
-  Expected<void> configure(double period) override;
-  Expected<void> activate() override;
+  std::optional<Error> configure(double period) override;
+  std::optional<Error> activate() override;
   Status read(Inputs& inputs) noexcept override;
   Status write(const Outputs& outputs) noexcept override;
   Truth truth() const noexcept override;

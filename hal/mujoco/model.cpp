@@ -5,8 +5,18 @@
 #include <array>
 
 #include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 
 namespace twin::hal::mujoco {
+
+void ModelDeleter::operator()(mjModel* model) const noexcept {
+  MujocoLibrary::loaded().delete_model(model);
+}
+
+void DataDeleter::operator()(mjData* data) const noexcept {
+  MujocoLibrary::loaded().delete_data(data);
+}
+
 namespace {
 
 /// MuJoCo's text on one line, without the prefix that every message has.
@@ -28,14 +38,15 @@ tl::unexpected<Error> model_error(const std::filesystem::path& file, std::string
 }  // namespace
 
 Expected<ModelPtr> load_model(const std::filesystem::path& file) {
-  install_mujoco_handlers();
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) {
     return model_error(file, "no such MJCF file");
   }
+  TWIN_TRY(const MujocoLibrary* const mujoco, MujocoLibrary::load());
   std::array<char, 1000> text{};
   try {
-    ModelPtr model(mj_loadXML(file.c_str(), nullptr, text.data(), static_cast<int>(text.size())));
+    ModelPtr model(
+        mujoco->load_xml(file.c_str(), nullptr, text.data(), static_cast<int>(text.size())));
     if (!model) {
       return model_error(file, fmt::format("MuJoCo cannot load it: {}", one_line(text.data())));
     }
@@ -46,9 +57,8 @@ Expected<ModelPtr> load_model(const std::filesystem::path& file) {
 }
 
 Expected<DataPtr> make_data(const mjModel& model) {
-  install_mujoco_handlers();
   try {
-    DataPtr data(mj_makeData(&model));
+    DataPtr data(MujocoLibrary::loaded().make_data(&model));
     if (data) {
       return data;
     }
@@ -61,7 +71,7 @@ Expected<DataPtr> make_data(const mjModel& model) {
 
 Expected<int> find_id(const mjModel& model, mjtObj type, const std::string& kind,
                       const std::string& name) {
-  const int id = mj_name2id(&model, type, name.c_str());
+  const int id = MujocoLibrary::loaded().name_to_id(&model, type, name.c_str());
   if (id < 0) {
     return fail(ErrorCode::kModel, fmt::format("the model has no {} named \"{}\"", kind, name));
   }

@@ -1,9 +1,5 @@
 #include "hal/mujoco/mujoco_errors.hpp"
 
-#include <mujoco/mujoco.h>
-
-#include <mutex>
-
 namespace twin::hal::mujoco {
 namespace {
 
@@ -12,12 +8,9 @@ void ignore_warning(const char* /*text*/) {}
 
 }  // namespace
 
-void install_mujoco_handlers() noexcept {
-  static std::once_flag installed;
-  std::call_once(installed, [] {
-    mju_user_error = throw_error;
-    mju_user_warning = ignore_warning;
-  });
+void install_handlers(MujocoHandler& user_error, MujocoHandler& user_warning) noexcept {
+  user_error = throw_error;
+  user_warning = ignore_warning;
 }
 
 }  // namespace twin::hal::mujoco

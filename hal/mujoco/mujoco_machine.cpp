@@ -18,14 +18,14 @@ MujocoMachine::MujocoMachine(TableParams params) : params_(std::move(params)) {
 
 MujocoMachine::~MujocoMachine() = default;
 
-Expected<void> MujocoMachine::configure(double period) {
+std::optional<Error> MujocoMachine::configure(double period) {
   if (state_ == State::kActive) {
-    return fail(ErrorCode::kMachine, "the table is active; deactivate it before configure");
+    return refusal("the table is active; deactivate it before configure");
   }
   cleanup();
   Expected<std::unique_ptr<TablePlant>> plant = TablePlant::open(params_, period);
   if (!plant) {
-    return tl::unexpected<Error>(plant.error());
+    return std::move(plant).error();
   }
   plant_ = std::move(*plant);
   origin_.fill(0.0);
@@ -38,13 +38,13 @@ Expected<void> MujocoMachine::configure(double period) {
   return {};
 }
 
-Expected<void> MujocoMachine::activate() {
+std::optional<Error> MujocoMachine::activate() {
   if (state_ != State::kInactive) {
-    return fail(ErrorCode::kMachine, state_ == State::kActive ? "the table is active already"
-                                                              : "the table is not configured");
+    return refusal(state_ == State::kActive ? "the table is active already"
+                                            : "the table is not configured");
   }
   if (fault_ == Fault::kPlant) {
-    return fail(ErrorCode::kMachine, "the table must be configured again: " + last_error());
+    return refusal("the table must be configured again: " + last_error());
   }
   fault_ = Fault::kNone;
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {

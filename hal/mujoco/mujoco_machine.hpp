@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ class MujocoMachine final : public Machine {
 
   const MachineInfo& info() const noexcept override { return info_; }
   State state() const noexcept { return state_; }
-  Expected<void> configure(double period) override;
-  Expected<void> activate() override;
+  std::optional<Error> configure(double period) override;
+  std::optional<Error> activate() override;
   Status read(Inputs& inputs) noexcept override;
   Status write(const Outputs& outputs) noexcept override;
   Truth truth() const noexcept override;

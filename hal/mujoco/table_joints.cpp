@@ -4,6 +4,7 @@
 
 #include "core/units.hpp"
 #include "hal/mujoco/model.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 
 namespace twin::hal::mujoco {
 namespace {
@@ -12,33 +13,24 @@ constexpr double kPerMInPerMm = 1000.0;  // stiffness and damping per mm in one 
 constexpr const char* kAxisNames[kServoAxes] = {"x", "y"};
 
 Expected<SlideJoint> find_joint(const mjModel& model, const std::string& name, mjtJoint type) {
-  const Expected<int> id = find_id(model, mjOBJ_JOINT, "joint", name);
-  if (!id) {
-    return tl::unexpected<Error>(id.error());
-  }
-  if (model.jnt_type[*id] != type) {
+  TWIN_TRY(const int id, find_id(model, mjOBJ_JOINT, "joint", name));
+  if (model.jnt_type[id] != type) {
     return fail(ErrorCode::kModel, fmt::format("joint \"{}\" of the model is not a {} joint", name,
                                                type == mjJNT_SLIDE ? "slide" : "hinge"));
   }
-  return SlideJoint{model.jnt_bodyid[*id], model.jnt_qposadr[*id], model.jnt_dofadr[*id]};
+  return SlideJoint{model.jnt_bodyid[id], model.jnt_qposadr[id], model.jnt_dofadr[id]};
 }
 
 Expected<AxisJoints> find_axis(const mjModel& model, const std::string& name) {
   AxisJoints axis;
-  Expected<SlideJoint> slide = find_joint(model, name, mjJNT_SLIDE);
-  if (!slide) {
-    return tl::unexpected<Error>(slide.error());
-  }
-  axis.slide = *slide;
-  axis.screw = mj_name2id(&model, mjOBJ_TENDON, (name + "_screw").c_str());
+  TWIN_TRY(SlideJoint slide, find_joint(model, name, mjJNT_SLIDE));
+  axis.slide = slide;
+  axis.screw = MujocoLibrary::loaded().name_to_id(&model, mjOBJ_TENDON, (name + "_screw").c_str());
   if (axis.screw < 0) {
     return axis;
   }
-  const Expected<SlideJoint> motor = find_joint(model, name + "_motor", mjJNT_HINGE);
-  if (!motor) {
-    return tl::unexpected<Error>(motor.error());
-  }
-  axis.motor = *motor;
+  TWIN_TRY(const SlideJoint motor, find_joint(model, name + "_motor", mjJNT_HINGE));
+  axis.motor = motor;
   const int first = model.tendon_adr[axis.screw];
   if (model.tendon_num[axis.screw] != 2 || model.wrap_type[first] != mjWRAP_JOINT ||
       model.jnt_dofadr[model.wrap_objid[first]] != axis.slide.dof ||
@@ -69,17 +61,11 @@ void apply_axis(mjModel& model, const AxisJoints& joints, const AxisParams& para
 Expected<TableJoints> find_table_joints(const mjModel& model) {
   TableJoints joints;
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
-    Expected<AxisJoints> found = find_axis(model, kAxisNames[axis]);
-    if (!found) {
-      return tl::unexpected<Error>(found.error());
-    }
-    joints.axis[axis] = *found;
+    TWIN_TRY(AxisJoints found, find_axis(model, kAxisNames[axis]));
+    joints.axis[axis] = found;
   }
-  const Expected<SlideJoint> pen = find_joint(model, "z", mjJNT_SLIDE);
-  if (!pen) {
-    return tl::unexpected<Error>(pen.error());
-  }
-  joints.pen = *pen;
+  TWIN_TRY(const SlideJoint pen, find_joint(model, "z", mjJNT_SLIDE));
+  joints.pen = pen;
   if (model.body_parentid[joints.axis[kX].slide.body] != joints.axis[kY].slide.body) {
     return fail(ErrorCode::kModel, "the body of joint x must sit on the body of joint y");
   }
@@ -101,7 +87,7 @@ Expected<void> apply_params(mjModel& model, mjData& data, const TableJoints& joi
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     apply_axis(model, joints.axis[axis], params.axis[axis]);
   }
-  mj_setConst(&model, &data);
+  MujocoLibrary::loaded().set_const(&model, &data);
   return {};
 }
 

@@ -8,6 +8,13 @@
 namespace twin::hal::mujoco {
 namespace {
 
+constexpr int kPassiveForces =
+#if mjVERSION_HEADER >= 336
+    mjDSBL_SPRING | mjDSBL_DAMPER;
+#else
+    mjDSBL_PASSIVE;
+#endif
+
 /// Switches off what no model of the table needs, whatever its file says.
 void strip_options(mjModel& model, double step) noexcept {
   model.opt.timestep = step;
@@ -16,7 +23,7 @@ void strip_options(mjModel& model, double step) noexcept {
                             mjDSBL_FRICTIONLOSS | mjDSBL_GRAVITY | mjDSBL_ACTUATION |
                             mjDSBL_SENSOR | mjDSBL_WARMSTART;
   if (model.ntendon == 0) {
-    model.opt.disableflags |= mjDSBL_PASSIVE;  // nothing springs but the screws
+    model.opt.disableflags |= kPassiveForces;  // nothing springs but the screws
   }
   model.opt.enableflags = 0;
 }
@@ -26,27 +33,16 @@ void strip_options(mjModel& model, double step) noexcept {
 Expected<std::unique_ptr<TablePhysics>> TablePhysics::open(const TableParams& params, double step) {
   auto in_file = [&params](Error error) {
     error.file = params.model;
-    return tl::unexpected<Error>(std::move(error));
+    return error;
   };
-  Expected<ModelPtr> model = load_model(params.model);
-  if (!model) {
-    return tl::unexpected<Error>(model.error());
-  }
-  const Expected<TableJoints> joints = find_table_joints(**model);
-  if (!joints) {
-    return in_file(joints.error());
-  }
-  Expected<DataPtr> data = make_data(**model);
-  if (!data) {
-    return in_file(data.error());
-  }
-  strip_options(**model, step);
-  if (Expected<void> applied = apply_params(**model, **data, *joints, params); !applied) {
-    return tl::unexpected<Error>(applied.error());
-  }
-  mj_resetData(model->get(), data->get());
+  TWIN_TRY(ModelPtr model, load_model(params.model));
+  TWIN_TRY(const TableJoints joints, find_table_joints(*model).map_error(in_file));
+  TWIN_TRY(DataPtr data, make_data(*model).map_error(in_file));
+  strip_options(*model, step);
+  TWIN_CHECK(apply_params(*model, *data, joints, params));
+  MujocoLibrary::loaded().reset_data(model.get(), data.get());
   return std::unique_ptr<TablePhysics>(
-      new TablePhysics(std::move(*model), std::move(*data), *joints, params));
+      new TablePhysics(std::move(model), std::move(data), joints, params));
 }
 
 TablePhysics::TablePhysics(ModelPtr model, DataPtr data, const TableJoints& joints,
@@ -95,7 +91,7 @@ void TablePhysics::pull_pen(double reference) noexcept {
       model_->body_mass[joints_.pen.body] * pen_omega_ * (pen_omega_ * error - 2.0 * velocity);
 }
 
-void TablePhysics::step() { mj_step(model_.get(), data_.get()); }
+void TablePhysics::step() { mujoco_.step(model_.get(), data_.get()); }
 
 bool TablePhysics::is_unstable() const noexcept {
   const mjWarningStat* warning = data_->warning;

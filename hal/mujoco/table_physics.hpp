@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "hal/mujoco/model.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "hal/mujoco/table_joints.hpp"
 #include "hal/mujoco/table_params.hpp"
@@ -40,6 +41,7 @@ class TablePhysics {
  private:
   TablePhysics(ModelPtr model, DataPtr data, const TableJoints& joints, const TableParams& params);
 
+  const MujocoLibrary& mujoco_ = MujocoLibrary::loaded();
   ModelPtr model_;
   DataPtr data_;
   TableJoints joints_;

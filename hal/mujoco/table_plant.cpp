@@ -16,16 +16,11 @@ Expected<std::unique_ptr<TablePlant>> TablePlant::open(const TableParams& params
   if (!(period > 0.0) || !std::isfinite(period)) {
     return fail(ErrorCode::kMachine, fmt::format("period {} s is not above 0", period));
   }
-  if (Expected<void> valid = validate(params); !valid) {
-    return tl::unexpected<Error>(valid.error());
-  }
+  TWIN_CHECK(validate(params));
   const int steps = steps_per_period(period, params.physics_step);
   const double step = period / steps;
-  Expected<std::unique_ptr<TablePhysics>> physics = TablePhysics::open(params, step);
-  if (!physics) {
-    return tl::unexpected<Error>(physics.error());
-  }
-  return std::unique_ptr<TablePlant>(new TablePlant(std::move(*physics), params, step, steps));
+  TWIN_TRY(std::unique_ptr<TablePhysics> physics, TablePhysics::open(params, step));
+  return std::unique_ptr<TablePlant>(new TablePlant(std::move(physics), params, step, steps));
 }
 
 TablePlant::TablePlant(std::unique_ptr<TablePhysics> physics, const TableParams& params,

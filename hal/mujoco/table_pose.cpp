@@ -9,11 +9,8 @@ Expected<TablePose> find_table_pose(const mjModel& model) {
   TablePose pose;
   for (const auto& [name, address] :
        {std::pair{kJointX, &pose.x}, std::pair{kJointY, &pose.y}, std::pair{kJointZ, &pose.z}}) {
-    const Expected<int> id = find_id(model, mjOBJ_JOINT, "joint", name);
-    if (!id) {
-      return tl::unexpected<Error>(id.error());
-    }
-    *address = model.jnt_qposadr[*id];
+    TWIN_TRY(const int id, find_id(model, mjOBJ_JOINT, "joint", name));
+    *address = model.jnt_qposadr[id];
   }
   return pose;
 }

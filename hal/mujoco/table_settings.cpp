@@ -34,9 +34,7 @@ Expected<void> check(const std::string& section, const std::vector<Setting>& set
 }
 
 Expected<void> check_axis(const std::string& section, AxisParams& axis, double step) {
-  if (Expected<void> result = check(section, axis_settings(axis)); !result) {
-    return result;
-  }
+  TWIN_CHECK(check(section, axis_settings(axis)));
   if (axis.dac_bits < kMinDacBits || axis.dac_bits > kMaxDacBits) {
     return fail(ErrorCode::kMachine, fmt::format("{}.dac_bits = {} is outside {} to {}", section,
                                                  axis.dac_bits, kMinDacBits, kMaxDacBits));
@@ -129,15 +127,9 @@ int steps_per_period(double period, double physics_step) noexcept {
 
 Expected<void> validate(const TableParams& params) {
   TableParams copy = params;
-  if (Expected<void> result = check("table", table_settings(copy)); !result) {
-    return result;
-  }
-  if (Expected<void> result = check_axis("table.x", copy.axis[kX], copy.physics_step); !result) {
-    return result;
-  }
-  if (Expected<void> result = check_axis("table.y", copy.axis[kY], copy.physics_step); !result) {
-    return result;
-  }
+  TWIN_CHECK(check("table", table_settings(copy)));
+  TWIN_CHECK(check_axis("table.x", copy.axis[kX], copy.physics_step));
+  TWIN_CHECK(check_axis("table.y", copy.axis[kY], copy.physics_step));
   return {};
 }
 

@@ -33,32 +33,20 @@ DaqnaviCards::DaqnaviCards(DaqnaviLibrary library, std::uint16_t safe_digital)
     : library_(std::move(library)), safe_digital_(safe_digital) {}
 
 Expected<std::unique_ptr<Cards>> DaqnaviCards::open(const RigSettings& settings) {
-  Expected<DaqnaviLibrary> library = DaqnaviLibrary::load(settings.daqnavi_library);
-  if (!library) {
-    return tl::unexpected(library.error());
-  }
-  std::unique_ptr<DaqnaviCards> cards(
-      new DaqnaviCards(std::move(*library), safe_digital(settings)));
-  const Expected<void> opened = cards->open_outputs(settings.pci1716_board_id)
-                                    .and_then([&] { return cards->open_inputs(settings); })
-                                    .and_then([&] { return cards->open_counters(settings); });
-  if (!opened) {
-    return tl::unexpected(opened.error());
-  }
+  TWIN_TRY(DaqnaviLibrary library, DaqnaviLibrary::load(settings.daqnavi_library));
+  std::unique_ptr<DaqnaviCards> cards(new DaqnaviCards(std::move(library), safe_digital(settings)));
+  TWIN_CHECK(cards->open_outputs(settings.pci1716_board_id));
+  TWIN_CHECK(cards->open_inputs(settings));
+  TWIN_CHECK(cards->open_counters(settings));
   return std::unique_ptr<Cards>(std::move(cards));
 }
 
 Expected<std::unique_ptr<Cards>> DaqnaviCards::open_outputs_only(const std::string& library,
                                                                  int board_id,
                                                                  std::uint16_t safe_digital) {
-  Expected<DaqnaviLibrary> loaded = DaqnaviLibrary::load(library);
-  if (!loaded) {
-    return tl::unexpected(loaded.error());
-  }
-  std::unique_ptr<DaqnaviCards> cards(new DaqnaviCards(std::move(*loaded), safe_digital));
-  if (const Expected<void> opened = cards->open_outputs(board_id); !opened) {
-    return tl::unexpected(opened.error());
-  }
+  TWIN_TRY(DaqnaviLibrary loaded, DaqnaviLibrary::load(library));
+  std::unique_ptr<DaqnaviCards> cards(new DaqnaviCards(std::move(loaded), safe_digital));
+  TWIN_CHECK(cards->open_outputs(board_id));
   return std::unique_ptr<Cards>(std::move(cards));
 }
 

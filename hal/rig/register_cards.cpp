@@ -103,33 +103,18 @@ std::string RegisterCards::last_error() const {
 }
 
 Expected<CardsFound> find_cards(const RigSettings& settings) {
-  auto analogue = io_port::find_card(io_port::kPci1716, settings.pci1716_board_id, settings.access,
-                                     settings.sysfs);
-  if (!analogue) {
-    return tl::unexpected(analogue.error());
-  }
-  auto counters = io_port::find_card(io_port::kPci1784, settings.pci1784_board_id, settings.access,
-                                     settings.sysfs);
-  if (!counters) {
-    return tl::unexpected(counters.error());
-  }
-  return CardsFound{std::move(*analogue), std::move(*counters)};
+  TWIN_TRY(auto analogue, io_port::find_card(io_port::kPci1716, settings.pci1716_board_id,
+                                             settings.access, settings.sysfs));
+  TWIN_TRY(auto counters, io_port::find_card(io_port::kPci1784, settings.pci1784_board_id,
+                                             settings.access, settings.sysfs));
+  return CardsFound{std::move(analogue), std::move(counters)};
 }
 
 Expected<std::unique_ptr<Cards>> open_register_cards(const RigSettings& settings) {
-  const Expected<CardsFound> found = find_cards(settings);
-  if (!found) {
-    return tl::unexpected(found.error());
-  }
-  auto analogue = io_port::open_port(found->pci1716.port);
-  if (!analogue) {
-    return tl::unexpected(analogue.error());
-  }
-  auto counters = io_port::open_port(found->pci1784.port);
-  if (!counters) {
-    return tl::unexpected(counters.error());
-  }
-  return RegisterCards::open(std::move(*analogue), std::move(*counters), settings);
+  TWIN_TRY(const CardsFound found, find_cards(settings));
+  TWIN_TRY(auto analogue, io_port::open_port(found.pci1716.port));
+  TWIN_TRY(auto counters, io_port::open_port(found.pci1784.port));
+  return RegisterCards::open(std::move(analogue), std::move(counters), settings);
 }
 
 }  // namespace twin::hal::rig

@@ -1,7 +1,14 @@
 #include "hal/rig/rig_machine.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
+
+#include "hal/rig/drive_check.hpp"
 
 namespace twin::hal::rig {
 
@@ -23,6 +30,123 @@ RigMachine::RigMachine(RigSettings settings, const TableScales& table, CardsFact
 }
 
 RigMachine::~RigMachine() { deactivate(); }
+
+std::optional<Error> RigMachine::configure(double period) {
+  if (state_ == State::kActive) {
+    return refusal("the rig is active; deactivate it before configure");
+  }
+  cleanup();
+  if (!(period > 0.0) || !std::isfinite(period)) {
+    return refusal(fmt::format("period {} s is not above 0", period));
+  }
+  if (bench_ != nullptr) {
+    if (Expected<void> on = bench_->power_on(period); !on) {
+      return std::move(on).error();
+    }
+  }
+  Expected<std::unique_ptr<Cards>> cards = open_cards_();
+  if (!cards) {
+    return std::move(cards).error();
+  }
+  cards_ = *std::move(cards);
+  emergency_.emplace(*cards_);
+  period_ = period;
+  state_ = State::kInactive;
+  return {};
+}
+
+Expected<void> RigMachine::fetch(CardInputs& inputs) {
+  return cards_->read(inputs) == Status::kOk ? Expected<void>{}
+                                             : fail(ErrorCode::kMachine, cards_->last_error());
+}
+
+// Lets time pass on the wall clock and, where time is the bench's own, there too.
+Expected<void> RigMachine::wait(double time) {
+  const auto periods = std::max(1L, std::lround(time / period_));
+  for (long i = 0; i < periods; ++i) {
+    if (bench_ != nullptr && !bench_->advance()) {
+      return fail(ErrorCode::kMachine, bench_->last_error());
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(period_));
+  }
+  return {};
+}
+
+// A pulse on /ALM-RST of each drive that has an alarm, then as long a rest.
+Expected<void> RigMachine::reset_alarms(CardInputs& inputs) {
+  CardOutputs pulse;
+  pulse.digital = safe_digital(settings_);
+  for (const Servopack& drive : drives_) {
+    const bool has_alarm = drive.decode(inputs.digital, false).alarm;
+    pulse.digital = drive.with_outputs(false, has_alarm, pulse.digital);
+  }
+  if (cards_->write(pulse) == Status::kError) {
+    return fail(ErrorCode::kMachine, cards_->last_error());
+  }
+  TWIN_CHECK(wait(settings_.alarm_reset_time));
+  cards_->make_safe();
+  TWIN_CHECK(wait(settings_.alarm_reset_time));
+  return fetch(inputs);
+}
+
+// A table that still coasts has no position to make zero: its counts must stay, but for one of
+// noise.
+Expected<void> RigMachine::wait_for_standstill(CardInputs& inputs) {
+  constexpr double kLook = 0.05;     // [s]
+  constexpr double kPatience = 3.0;  // [s]
+  std::size_t moving = kX;
+  for (double passed = 0.0; passed < kPatience; passed += kLook) {
+    const CardInputs before = inputs;
+    TWIN_CHECK(wait(kLook));
+    TWIN_CHECK(fetch(inputs));
+    const auto has_moved = [&](std::size_t axis) {
+      const auto counter = static_cast<std::size_t>(settings_.axis[axis].counter);
+      return std::abs(inputs.counts[counter] - before.counts[counter]) > 1;
+    };
+    if (!has_moved(kX) && !has_moved(kY)) {
+      return {};
+    }
+    moving = has_moved(kX) ? kX : kY;
+  }
+  return fail(
+      ErrorCode::kMachine,
+      fmt::format("axis {} still moves {:g} s after 0 V and servo off; wait until it stands",
+                  "xy"[moving], kPatience));
+}
+
+/// The drives have no alarm, the limit switches say that the table may move, and it stands.
+Expected<void> RigMachine::get_ready(CardInputs& inputs) {
+  TWIN_CHECK(fetch(inputs));
+  if (has_alarm(settings_, inputs.digital)) {
+    TWIN_CHECK(reset_alarms(inputs));
+  }
+  TWIN_CHECK(check_drives(settings_, inputs.digital));
+  return info_.keeps_own_time ? wait_for_standstill(inputs) : Expected<void>();
+}
+
+std::optional<Error> RigMachine::activate() {
+  if (state_ != State::kInactive) {
+    return refusal(state_ == State::kActive ? "the rig is active already"
+                                            : "the rig is not configured");
+  }
+  cards_->make_safe();
+  if (has_guard_acted()) {
+    return refusal("the guard has made the outputs safe; start the program anew");
+  }
+  CardInputs inputs;
+  if (Expected<void> ready = get_ready(inputs); !ready) {
+    cards_->make_safe();
+    return std::move(ready).error();
+  }
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    home_[axis] = inputs.counts[static_cast<std::size_t>(settings_.axis[axis].counter)];
+  }
+  origin_ = bench_ != nullptr ? bench_->truth() : Truth{};
+  servo_on_.fill(false);
+  fault_ = Fault::kNone;
+  state_ = State::kActive;
+  return {};
+}
 
 Status RigMachine::read(Inputs& inputs) noexcept {
   if (state_ == State::kUnconfigured) {
@@ -118,6 +242,32 @@ Status RigMachine::stop_with(Fault fault) noexcept {
   deactivate();
   fault_ = fault;
   return Status::kError;
+}
+
+// Safe values are written even after the guard has acted: a write that it overtook may have come
+// after them.
+void RigMachine::deactivate() noexcept {
+  if (cards_ != nullptr) {
+    cards_->make_safe();
+  }
+  servo_on_.fill(false);
+  if (is_armed_) {
+    watch_->disarm();
+    is_armed_ = false;
+  }
+  if (state_ == State::kActive) {
+    state_ = State::kInactive;
+  }
+}
+
+void RigMachine::cleanup() noexcept {
+  deactivate();
+  emergency_.reset();
+  cards_.reset();
+  home_.fill(0);
+  origin_ = {};
+  fault_ = Fault::kNone;
+  state_ = State::kUnconfigured;
 }
 
 std::string RigMachine::last_error() const {

@@ -45,8 +45,8 @@ class RigMachine final : public Machine {
 
   const MachineInfo& info() const noexcept override { return info_; }
   State state() const noexcept { return state_; }
-  Expected<void> configure(double period) override;
-  Expected<void> activate() override;
+  std::optional<Error> configure(double period) override;
+  std::optional<Error> activate() override;
   Status read(Inputs& inputs) noexcept override;
   Status write(const Outputs& outputs) noexcept override;
   Truth truth() const noexcept override;
@@ -69,6 +69,7 @@ class RigMachine final : public Machine {
     kGuardGone
   };
 
+  Expected<void> get_ready(CardInputs& inputs);
   Expected<void> reset_alarms(CardInputs& inputs);
   Expected<void> wait(double time);
   Expected<void> wait_for_standstill(CardInputs& inputs);

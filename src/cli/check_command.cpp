@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
-#include "runtime/cycle_time.hpp"
 #include "runtime/program_check.hpp"
 
 namespace twin::cli {
@@ -14,15 +13,16 @@ Expected<void> check_program_of(const std::string& name, const CheckArguments& a
   TWIN_TRY(const auto program, config::find_program(name));
   gcode::ReaderOptions reading;
   reading.feedrate = arguments.feedrate;
-  TWIN_TRY(const auto figures, runtime::check_program(program, reading, machine.limits));
-  TWIN_TRY(const auto plan, runtime::estimate_plan(program, reading, machine, &stop));
+  TWIN_TRY(const runtime::Estimate estimate,
+           runtime::estimate_program(program, reading, machine, &stop));
   if (arguments.verbosity == Verbosity::kNormal) {
+    const runtime::ProgramFigures& figures = estimate.program;
     fmt::print(
         "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
         "cycle time {:.3f} s\n",
         program.string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
         figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
-        plan.time);
+        estimate.plan.time);
   }
   return {};
 }

@@ -4,9 +4,8 @@
 #include "config/find_file.hpp"
 #include "session/machine.hpp"
 #include "session/results.hpp"
+#include "studies/compare/comparison_files.hpp"
 #include "studies/compare/planner_table.hpp"
-#include "studies/compare/texts.hpp"
-#include "studies/compare/write_results.hpp"
 
 namespace twin::cli {
 namespace {
@@ -57,7 +56,7 @@ Expected<void> compare_contestants(const ResultArguments& results,
   {
     Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
     progress.show(0.0);
-    TWIN_CHECK(write_results(*comparison, workshop, results.has_plots));
+    TWIN_CHECK(write_results(*comparison, workshop, results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
   }
   if (results.verbosity == Verbosity::kNormal) {
     fmt::print("{}\n", to_text(grid_of_interpolators(*comparison)));

@@ -50,7 +50,7 @@ Expected<void> check_rig_is_meant(const HalArguments& arguments) {
 Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Verbosity verbosity) {
   session::MachineSource source{arguments.file, arguments.settings};
   if (!arguments.curves.empty()) {
-    source.settings.push_back("interpolator.kind=" + arguments.curves);
+    source.settings.push_back("path.curves=" + arguments.curves);
   }
   TWIN_TRY(config::MachineFile machine, session::read_machine(source));
   if (verbosity == Verbosity::kQuiet) {

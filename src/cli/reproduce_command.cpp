@@ -4,10 +4,9 @@
 #include "config/find_file.hpp"
 #include "session/machine.hpp"
 #include "session/results.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
-#include "studies/reproduce/files.hpp"
-#include "studies/reproduce/table_grids.hpp"
-#include "studies/reproduce/write_results.hpp"
+#include "studies/reproduce/published_columns.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
+#include "studies/reproduce/reproduction_tables.hpp"
 
 namespace twin::cli {
 namespace {
@@ -50,7 +49,7 @@ Expected<void> execute(const ReproduceArguments& arguments, const Environment& e
   {
     Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
     progress.show(0.0);
-    TWIN_CHECK(write_results(*reproduction, workshop, results.has_plots));
+    TWIN_CHECK(write_results(*reproduction, workshop, results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
   }
   if (results.verbosity == Verbosity::kNormal) {
     print(*reproduction);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "config/nearest_name.hpp"
 
@@ -98,11 +99,8 @@ struct Assign {
     }
     Vec3 vector;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto x = number(b, (*list)[i], "a number");
-      if (!x) {
-        return tl::unexpected(x.error());
-      }
-      vector[static_cast<Eigen::Index>(i)] = *x / b.per_base;
+      TWIN_TRY(const double x, number(b, (*list)[i], "a number"));
+      vector[static_cast<Eigen::Index>(i)] = x / b.per_base;
     }
     *field = vector;
     return {};
@@ -121,8 +119,41 @@ std::string real_text(double field, double per_base) {
 
 }  // namespace
 
+const Binding* find_binding(const std::vector<Binding>& list, std::string_view section,
+                            std::string_view name) {
+  const auto found = std::ranges::find_if(list, [&](const Binding& b) {
+    return (b.section == section && b.is_called(name)) ||
+           (!b.former.empty() && b.former == fmt::format("{}.{}", section, name));
+  });
+  return found == list.end() ? nullptr : &*found;
+}
+
+std::string renaming_note(const Binding& binding, std::string_view section) {
+  return section == binding.section
+             ? ""
+             : fmt::format("{} is now called {}", binding.former, binding.path());
+}
+
 Expected<void> assign(const Binding& binding, const Value& value) {
   return std::visit(Assign{binding, value}, binding.target);
+}
+
+Value setting_value(const Binding& binding) {
+  struct Visitor {
+    double per_base;
+    double in_unit(double field) const {
+      return std::strtod(scaled(field, per_base).c_str(), nullptr);
+    }
+    Value operator()(const double* x) const { return in_unit(*x); }
+    Value operator()(const int* x) const { return std::int64_t{*x}; }
+    Value operator()(const bool* x) const { return *x; }
+    Value operator()(const std::string* x) const { return *x; }
+    Value operator()(const Choice& x) const { return std::string(x.names[x.get()]); }
+    Value operator()(const Vec3* x) const {
+      return std::vector<double>{in_unit(x->x()), in_unit(x->y()), in_unit(x->z())};
+    }
+  };
+  return std::visit(Visitor{binding.per_base}, binding.target);
 }
 
 std::string value_text(const Binding& binding) {

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
+#include "core/setting.hpp"
 
 namespace twin::config {
 
 /// A value as a machine file or a --set writes it.
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+using Value = SettingValue;
 
 /// A field that holds one of a few named values, an enumeration.
 struct Choice {
@@ -40,10 +41,11 @@ struct Binding {
   std::string name;     ///< "acceleration"
   std::string unit;     ///< "mm_per_s2", or empty
   Target target;
-  double min;             ///< smallest value, in the key's unit
-  double max;             ///< largest value, in the key's unit
-  std::string_view doc;   ///< what it means, in a few words
-  double per_base = 1.0;  ///< how many of the key's unit are one base unit: 60 for mm/min
+  double min;                    ///< smallest value, in the key's unit
+  double max;                    ///< largest value, in the key's unit
+  std::string_view doc;          ///< what it means, in a few words
+  double per_base = 1.0;         ///< how many of the key's unit are one base unit: 60 for mm/min
+  std::string_view former = {};  ///< path that it had before, "interpolator.kind"; still understood
 
   /// "acceleration_mm_per_s2"
   std::string key() const { return unit.empty() ? name : name + "_" + unit; }
@@ -70,10 +72,22 @@ std::vector<Binding> home_bindings(MachineFile& machine);
 /// The part of bindings() that is about the real rig.
 std::vector<Binding> rig_bindings(hal::rig::RigSettings& rig);
 
+/// The setting with a key, by its present name, with or without unit, or by its former one.
+/// @returns null where there is none
+const Binding* find_binding(const std::vector<Binding>& list, std::string_view section,
+                            std::string_view name);
+
+/// "interpolator.kind is now called path.curves", where that is how the setting was asked for;
+/// else empty.
+std::string renaming_note(const Binding& binding, std::string_view section);
+
 /// Gives the field a value; the error has the key, the value, its unit and the range.
 Expected<void> assign(const Binding& binding, const Value& value);
 
-/// The field's value, in the key's unit, as TOML writes it.
+/// The field's value, in the key's unit.
+Value setting_value(const Binding& binding);
+
+/// The same as TOML writes it.
 std::string value_text(const Binding& binding);
 
 /// "mm/s^2" from "mm_per_s2", "1/s" from "per_s"; empty stays empty.

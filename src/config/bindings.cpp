@@ -35,7 +35,8 @@ void add_limits(List& list, Limits& l) {
 
 void add_planning(List& list, PlanningModel& p, PathSettings& s) {
   const char* section = "planning";
-  list.push_back({section, "planner", "", choice(s.planner, {"paper", "certified"}), 0.0, 0.0,
+  list.push_back({section, "planner", "",
+                  choice(s.planner, {kPlannerNames.begin(), kPlannerNames.end()}), 0.0, 0.0,
                   "what makes path and feedrates"});
   list.push_back(
       {section, "kp", "per_s", &p.kp, 1e-3, 1e5, "position gain Kp the planner believes in"});
@@ -68,12 +69,13 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "planned segments between planner and interpolator"});
 }
 
-void add_interpolator(List& list, motion::InterpolatorSettings& i, CurveKind& kind,
-                      double& period) {
+void add_path(List& list, CurveKind& curves) {
+  list.push_back({"path", "curves", "", choice(curves, {kCurveNames.begin(), kCurveNames.end()}),
+                  0.0, 0.0, "what runs of short blocks become", 1.0, "interpolator.kind"});
+}
+
+void add_interpolator(List& list, motion::InterpolatorSettings& i, double& period) {
   const char* section = "interpolator";
-  list.push_back({section, "kind", "",
-                  choice(kind, {kInterpolatorNames.begin(), kInterpolatorNames.end()}), 0.0, 0.0,
-                  "what runs of short blocks become"});
   list.push_back({section, "period", "ms", &period, 0.125, 4.0, "time between set points", 1e3});
   list.push_back({section, "parameter_update", "",
                   choice(i.update, {"taylor1", "taylor2", "rk4", "corrected"}), 0.0, 0.0,
@@ -97,7 +99,8 @@ std::vector<Binding> bindings(MachineFile& machine) {
   List list;
   add_limits(list, machine.limits);
   add_planning(list, machine.planning, machine.path);
-  add_interpolator(list, machine.interpolation, machine.path.curves, machine.period);
+  add_path(list, machine.path.curves);
+  add_interpolator(list, machine.interpolation, machine.period);
   add_servo(list, "servo.x", machine.servo[hal::kX]);
   add_servo(list, "servo.y", machine.servo[hal::kY]);
   for (List part : {safety_bindings(machine), table_bindings(machine.table),

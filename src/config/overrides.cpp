@@ -1,6 +1,7 @@
 #include "config/overrides.hpp"
 
-#include <algorithm>
+#include <set>
+#include <utility>
 
 #include "config/binding.hpp"
 #include "config/nearest_name.hpp"
@@ -30,9 +31,8 @@ Expected<Value> parse_value(std::string_view text) {
   return value_of(*toml->get("value"));
 }
 
-}  // namespace
-
-Expected<void> apply_override(MachineFile& machine, std::string_view text) {
+/// Applies one override. @returns path of the setting
+Expected<std::string> assign_override(MachineFile& machine, std::string_view text) {
   const auto equals = text.find('=');
   const std::string_view path = trim(text.substr(0, equals));
   const auto dot = path.rfind('.');
@@ -40,10 +40,9 @@ Expected<void> apply_override(MachineFile& machine, std::string_view text) {
     return refuse(text, "wants section.key=value, as in limits.jerk_mm_per_s3=50000");
   }
   const std::vector<Binding> list = bindings(machine);
-  const auto binding = std::find_if(list.begin(), list.end(), [&](const Binding& b) {
-    return b.section == path.substr(0, dot) && b.is_called(path.substr(dot + 1));
-  });
-  if (binding == list.end()) {
+  const std::string_view section = path.substr(0, dot);
+  const Binding* binding = find_binding(list, section, path.substr(dot + 1));
+  if (binding == nullptr) {
     std::vector<std::string> names;
     for (const Binding& b : list) {
       names.push_back(b.path());
@@ -55,17 +54,27 @@ Expected<void> apply_override(MachineFile& machine, std::string_view text) {
   if (!value) {
     return refuse(text, value.error().message);
   }
-  const auto done = assign(*binding, *value);
-  return done ? done : refuse(text, done.error().message);
+  if (const auto done = assign(*binding, *value); !done) {
+    return refuse(text, done.error().message);
+  }
+  machine.add_note(renaming_note(*binding, section));
+  return binding->path();
+}
+
+}  // namespace
+
+Expected<void> apply_override(MachineFile& machine, std::string_view text) {
+  TWIN_CHECK(assign_override(machine, text));
+  return {};
 }
 
 Expected<void> apply_overrides(MachineFile& machine, std::span<const std::string> texts) {
+  std::set<std::string> given;
   for (const std::string& text : texts) {
-    if (auto done = apply_override(machine, text); !done) {
-      return done;
-    }
+    TWIN_TRY(std::string path, assign_override(machine, text));
+    given.insert(std::move(path));
   }
-  auto fits = check_rules(machine);
+  auto fits = check_rules(machine).and_then([&] { return resolve_planner(machine, given); });
   if (!fits) {
     fits.error().code = ErrorCode::kUsage;
     fits.error().message = "after --set: " + fits.error().message;

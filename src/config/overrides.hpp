@@ -14,7 +14,7 @@ namespace twin::config {
 /// the nearest key.
 Expected<void> apply_override(MachineFile& machine, std::string_view text);
 
-/// Applies several in order, then checks what they say together.
+/// Applies several in order, then checks what they say together (check_rules, resolve_planner).
 Expected<void> apply_overrides(MachineFile& machine, std::span<const std::string> texts);
 
 }  // namespace twin::config

@@ -24,18 +24,15 @@ std::string joined(const std::string& section, const std::string& name) {
 class Reader {
  public:
   Reader(MachineFile& machine, std::string file)
-      : list_(bindings(machine)), file_(std::move(file)) {}
+      : machine_(machine), list_(bindings(machine)), file_(std::move(file)) {}
 
   /// @param section  dotted name of the table, empty for the whole file
   Expected<void> read(const toml::table& table, const std::string& section) {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
       const std::string path = joined(section, name);
-      auto done = node.is_table() && is_section(path) ? read(*node.as_table(), path)
-                                                      : read_key(section, name, node, key.source());
-      if (!done) {
-        return done;
-      }
+      TWIN_CHECK(node.is_table() && is_section(path) ? read(*node.as_table(), path)
+                                                     : read_key(section, name, node, key.source()));
     }
     return {};
   }
@@ -49,21 +46,22 @@ class Reader {
 
   Expected<void> read_key(const std::string& section, const std::string& name,
                           const toml::node& node, const toml::source_region& place) {
-    const auto binding = std::find_if(list_.begin(), list_.end(), [&](const Binding& b) {
-      return b.section == section && b.is_called(name);
-    });
-    if (binding == list_.end()) {
+    const Binding* binding = find_binding(list_, section, name);
+    if (binding == nullptr) {
       return at(place, unknown(section, name, node.is_table()));
     }
     if (!seen_.insert(binding->path()).second) {
-      return at(place, binding->path() + " is given twice, with and without its unit");
+      return at(place, binding->path() + " is given twice, under two of its names");
     }
     const auto value = value_of(node);
     if (!value) {
       return at(node.source(), binding->path() + " is " + value.error().message);
     }
-    const auto assigned = assign(*binding, *value);
-    return assigned ? Expected<void>{} : at(node.source(), assigned.error().message);
+    if (const auto assigned = assign(*binding, *value); !assigned) {
+      return at(node.source(), assigned.error().message);
+    }
+    machine_.add_note(renaming_note(*binding, section));
+    return {};
   }
 
   std::string unknown(const std::string& section, const std::string& name, bool is_table) const {
@@ -90,6 +88,7 @@ class Reader {
                                        static_cast<int>(place.begin.column)});
   }
 
+  MachineFile& machine_;
   std::vector<Binding> list_;
   std::string file_;
   std::set<std::string> seen_;
@@ -97,26 +96,25 @@ class Reader {
 
 }  // namespace
 
+void MachineFile::add_note(std::string note) {
+  if (!note.empty() && std::ranges::find(notes, note) == notes.end()) {
+    notes.push_back(std::move(note));
+  }
+}
+
 Expected<MachineFile> parse_machine_file(std::string_view text, const fs::path& file,
                                          std::span<const std::string> overrides) {
-  const auto toml = parse_toml(text, file.string());
-  if (!toml) {
-    return tl::unexpected(toml.error());
-  }
+  TWIN_TRY(const toml::table toml, parse_toml(text, file.string()));
   MachineFile machine;
   machine.file = file;
   machine.table.model = "xy_table.xml";
   machine.name = file.stem().string();
-  if (const auto done = Reader(machine, file.string()).read(*toml, ""); !done) {
-    return tl::unexpected(done.error());
-  }
+  TWIN_CHECK(Reader(machine, file.string()).read(toml, ""));
   if (auto fits = check_rules(machine); !fits) {
     fits.error().file = file.string();
     return tl::unexpected(fits.error());
   }
-  if (const auto done = apply_overrides(machine, overrides); !done) {
-    return tl::unexpected(done.error());
-  }
+  TWIN_CHECK(apply_overrides(machine, overrides));
   machine.table.model =
       fs::absolute(file.parent_path() / machine.table.model).lexically_normal().string();
   return machine;
@@ -124,11 +122,8 @@ Expected<MachineFile> parse_machine_file(std::string_view text, const fs::path& 
 
 Expected<MachineFile> read_machine_file(const fs::path& file,
                                         std::span<const std::string> overrides) {
-  const auto text = read_text(file);
-  if (!text) {
-    return tl::unexpected(text.error());
-  }
-  return parse_machine_file(*text, file, overrides);
+  TWIN_TRY(const std::string text, read_text(file));
+  return parse_machine_file(text, file, overrides);
 }
 
 }  // namespace twin::config

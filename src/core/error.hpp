@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
@@ -14,6 +15,18 @@ using Expected = tl::expected<T, Error>;
 /// Shorthand for returning an error that is not about a place in a file.
 inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
   return tl::unexpected<Error>(Error{code, std::move(message), {}, 0, 0});
+}
+
+/// What a call of a public header returns, nothing or why not, as an Expected.
+///
+///   TWIN_CHECK(checked(machine.activate()));
+inline Expected<void> checked(std::optional<Error> why_not) {
+  return why_not ? Expected<void>(tl::unexpected<Error>(*std::move(why_not))) : Expected<void>();
+}
+
+/// An Expected as a public header returns it: nothing, or why not.
+inline std::optional<Error> why_not(Expected<void> result) {
+  return result ? std::nullopt : std::optional<Error>(std::move(result).error());
 }
 
 }  // namespace twin

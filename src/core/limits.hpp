@@ -19,7 +19,7 @@ struct Limits {
   Vec3 travel_max{200.0, 200.0, 60.0};     ///< upper ends of travel (x, y, z) [mm]
 };
 
-/// What limits the feedrate on arcs and curves; feedrate/feedrate_rule.hpp says how each does.
+/// What limits the feedrate on arcs and curves; feedrate/limits/feedrate_rules.hpp says how each does.
 enum class FeedrateRule : std::uint8_t {
   kAuto,          ///< the servo model; constant on Bezier pieces
   kConstant,      ///< the programmed feedrate everywhere
@@ -31,7 +31,7 @@ enum class FeedrateRule : std::uint8_t {
 /// Side of the workpiece's surface on which the tool is, seen along the path: G41, G42.
 enum class ToolSide : std::uint8_t { kLeft, kRight };
 
-/// How the feedrate changes from one value to another; feedrate/ramp.hpp says how each does.
+/// How the feedrate changes from one value to another; feedrate/profile/ramps.cpp says how each does.
 enum class AccelerationProfile : std::uint8_t {
   kTrapezoidal,  ///< fastest within A_max and J_max
   kSCurve,       ///< without constant acceleration

@@ -4,30 +4,31 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/limits.hpp"
-
 namespace twin {
 
-/// What runs of continuous short blocks become; each makes an interpolator of its own.
+/// What runs of continuous short blocks become: path.curves of the machine file.
 enum class CurveKind : std::uint8_t {
   kNurbs,   ///< C2 cubic NURBS curves
   kBezier,  ///< cubic Bezier pieces with continuous tangent (Fast Bezier interpolation)
   kNone,    ///< the lines they are
 };
 
-/// Which planner turns blocks into a path with feedrates.
+/// Which planner turns blocks into a path with feedrates: planning.planner of the machine file.
 enum class Planner : std::uint8_t {
   kPaper,      ///< runs of short blocks interpolated, corners passed as they are [WY09]
   kCertified,  ///< one path of continuous curvature within the tolerance, all limits guaranteed
 };
 
-/// Names of the interpolators, in the order of CurveKind.
-inline constexpr std::array<std::string_view, 3> kInterpolatorNames{"nurbs", "bezier", "linear"};
+/// Names of the kinds of curves, in the order of CurveKind.
+inline constexpr std::array<std::string_view, 3> kCurveNames{"nurbs", "bezier", "linear"};
+
+/// Names of the planners, in the order of Planner.
+inline constexpr std::array<std::string_view, 2> kPlannerNames{"paper", "certified"};
 
 /// How NC blocks become segments: which runs are fitted, how closely, and how far ahead the planner
 /// looks.
 struct PathSettings {
-  Planner planner = Planner::kCertified;
+  Planner planner = Planner::kCertified;  ///< the one that plans: see config::resolve_planner
   CurveKind curves = CurveKind::kNurbs;
   double chord_error = 0.01;  ///< chord tolerance, and the curve's distance from the polygon [mm]
   int min_segments = 3;       ///< fewest blocks that are fitted into one curve
@@ -35,15 +36,5 @@ struct PathSettings {
   double short_block_length = 10.0;  ///< a longer block is never part of a run of short ones [mm]
   int look_ahead = 200;              ///< planned segments between planner and interpolator
 };
-
-/// Whether the certified planner plans. Bezier pieces, bare lines, the acceleration profiles beside
-/// the trapezoidal one and the feedrate rules that leave a limit out or exceed the programmed
-/// feedrate are for comparison with the paper's planner, and keep it.
-inline bool is_certified(const PathSettings& path, const PlanningModel& model) noexcept {
-  return path.planner == Planner::kCertified && path.curves == CurveKind::kNurbs &&
-         model.acceleration_profile == AccelerationProfile::kTrapezoidal &&
-         model.feedrate_rule != FeedrateRule::kConstant &&
-         model.feedrate_rule != FeedrateRule::kContactSpeed;
-}
 
 }  // namespace twin

@@ -32,24 +32,24 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
 }
 
 /// Widths of the columns: of their cells and of the longest word of their headings.
-std::vector<std::size_t> column_widths(const TextTable& table) {
+std::vector<std::size_t> column_widths(const TextTable& table, std::size_t least) {
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < table.head.size(); ++i) {
-    std::size_t width = 5;
+    std::size_t width = least;
     for (const std::string& word : words_of(table.head[i])) {
       width = std::max(width, word.size());
     }
     for (const Line& line : table.lines) {
-      width = std::max(width, line.cells[i].text.size());
+      width = std::max(width, i < line.cells.size() ? line.cells[i].text.size() : 0);
     }
     widths.push_back(width);
   }
   return widths;
 }
 
-/// Width of the two columns in front.
-std::size_t front_width(const TextTable& table, std::string Line::*field) {
-  std::size_t width = 0;
+/// Width of one of the two columns in front.
+std::size_t front_width(const TextTable& table, std::string Line::*field, std::size_t least) {
+  std::size_t width = least;
   for (const Line& line : table.lines) {
     width = std::max(width, (line.*field).size());
   }
@@ -61,8 +61,9 @@ std::string without_trailing_space(std::string text) {
   return text + "\n";
 }
 
+/// The headings of the columns, each in as many lines as it needs, behind that of the rows.
 std::string text_head(const TextTable& table, const std::vector<std::size_t>& widths,
-                      std::size_t indent) {
+                      std::size_t indent, std::size_t front) {
   std::vector<std::vector<std::string>> heads;
   std::size_t height = 0;
   for (std::size_t i = 0; i < table.head.size(); ++i) {
@@ -71,7 +72,8 @@ std::string text_head(const TextTable& table, const std::vector<std::size_t>& wi
   }
   std::string text;
   for (std::size_t row = 0; row < height; ++row) {
-    std::string line(indent, ' ');
+    const bool is_last = row + 1 == height;
+    std::string line = fmt::format("{:{}}{:<{}}", "", indent, is_last ? table.row_head : "", front);
     for (std::size_t i = 0; i < heads.size(); ++i) {
       const std::size_t skipped = height - heads[i].size();
       line += fmt::format(" {:>{}} ", row < skipped ? "" : heads[i][row - skipped], widths[i]);
@@ -81,22 +83,31 @@ std::string text_head(const TextTable& table, const std::vector<std::size_t>& wi
   return text;
 }
 
-constexpr std::array<std::string_view, 5> kClasses{"", "w10", "w20", "w30", "out"};
+char sign_of(Mark mark) {
+  return mark == Mark::kOutside ? '!' : mark == Mark::kDoubtful ? '*' : ' ';
+}
+
+constexpr std::array<std::string_view, 6> kClasses{"", "w10", "w20", "w30", "out", "doubt"};
 
 }  // namespace
 
-std::string to_text(const TextTable& table) {
-  const auto widths = column_widths(table);
-  const std::size_t row_width = front_width(table, &Line::row);
-  const std::size_t what_width = front_width(table, &Line::what);
-  std::string text = table.title + "\n";
-  text += text_head(table, widths, row_width + 2 + what_width);
+std::string to_text(const TextTable& table, const TextLayout& layout) {
+  const auto widths = column_widths(table, layout.cell_width);
+  const std::size_t what_width = front_width(table, &Line::what, 0);
+  const std::size_t gap = what_width > 0 ? 2 : 0;
+  const std::size_t row_width =
+      std::max(front_width(table, &Line::row, layout.row_width), table.row_head.size());
+  std::string text = table.title.empty() ? "" : table.title + "\n";
+  text += text_head(table, widths, layout.indent, row_width + gap + what_width);
   for (const Line& line : table.lines) {
-    std::string out = fmt::format("{:<{}}  {:<{}}", line.row, row_width, line.what, what_width);
-    for (std::size_t i = 0; i < widths.size(); ++i) {
+    std::string out = fmt::format("{:{}}{:<{}}{:{}}{:<{}}", "", layout.indent, line.row, row_width,
+                                  "", gap, line.what, what_width);
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
       const Cell& cell = line.cells[i];
-      out +=
-          fmt::format(" {:>{}}{}", cell.text, widths[i], cell.mark == Mark::kOutside ? '!' : ' ');
+      out += fmt::format(" {:>{}}{}", cell.text, widths[i], sign_of(cell.mark));
+    }
+    if (layout.notes == Notes::kShown) {
+      out += " " + line.note;
     }
     text += without_trailing_space(out);
   }
@@ -104,7 +115,8 @@ std::string to_text(const TextTable& table) {
 }
 
 std::string to_markdown(const TextTable& table) {
-  std::string text = fmt::format("## {}\n\n| | |", table.title);
+  std::string text = fmt::format("## {}\n\n| {}| |", table.title,
+                                 table.row_head.empty() ? "" : table.row_head + " ");
   std::string rule = "| --- | --- |";
   for (const std::string& head : table.head) {
     text += fmt::format(" {} |", head);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/vec.hpp"
+#include "geometry/arc.hpp"
 
 namespace twin::gcode {
 
@@ -23,21 +24,8 @@ enum class PathMode : std::uint8_t {
   kExactStop,   ///< G61, G61.1: the block is followed exactly and ends at rest
 };
 
-/// Circular arc or helix in space, seen from its axis.
-///
-/// Point at fraction f in [0, 1] of the arc, with a(f) = f sweep:
-///   centre + (radius + f radius_change) (cos a(f) e1 + sin a(f) e2) + f rise (e1 x e2)
-/// At f = 0 it is the block's start, at f = 1 its end. radius_change is the rounding of the
-/// program's numbers.
-struct ArcGeometry {
-  Vec3 centre = Vec3::Zero();  ///< centre, at the height of the start point [mm]
-  Vec3 e1 = Vec3::UnitX();     ///< unit vector from the centre to the start point
-  Vec3 e2 = Vec3::UnitY();     ///< unit vector, 90 deg further in the sense of motion
-  double radius = 0.0;         ///< radius at the start, > 0 [mm]
-  double radius_change = 0.0;  ///< radius at the end less radius at the start [mm]
-  double sweep = 0.0;          ///< angle travelled, > 0 [rad]
-  double rise = 0.0;           ///< travel along e1 x e2 over the whole arc, signed [mm]
-};
+/// Lengths below this count as none: an arc from a point to itself is a full circle [mm].
+inline constexpr double kNoLength = 1e-9;
 
 /// One line of an NC program that moves (or rests), in absolute millimetres.
 struct Block {
@@ -45,7 +33,7 @@ struct Block {
   PathMode path_mode = PathMode::kContinuous;
   Vec3 start = Vec3::Zero();                     ///< [mm]
   Vec3 end = Vec3::Zero();                       ///< [mm]
-  ArcGeometry arc;                               ///< used when motion is kArc
+  geometry::Arc arc;                             ///< used when motion is kArc
   std::shared_ptr<const ProgrammedCurve> nurbs;  ///< not null when motion is kNurbs
   double feedrate = 0.0;   ///< programmed feedrate [mm/s]; 0 for kRapid and kDwell
   double tolerance = 0.0;  ///< path tolerance of G64 P [mm]; 0: the machine's own

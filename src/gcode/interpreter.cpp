@@ -1,6 +1,11 @@
 #include "gcode/interpreter.hpp"
 
-#include "gcode/arc.hpp"
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "gcode/arc_words.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/word_rules.hpp"
 
@@ -15,9 +20,7 @@ Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, L
       concerns_nurbs(words)) {
     return execute_nurbs(words, before, line, blocks);
   }
-  if (auto checked = check_words(words, state_); !checked) {
-    return checked;
-  }
+  TWIN_CHECK(check_words(words, state_));
   if (words.has(MGroup::kToolChange)) {
     add_rest(0.0, line, blocks);
   }
@@ -25,9 +28,7 @@ Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, L
     add_rest(words.value('P'), line, blocks);
   }
   if (asks_for_move(words, state_)) {
-    if (auto moved = add_move(words, line, blocks); !moved) {
-      return moved;
-    }
+    TWIN_CHECK(add_move(words, line, blocks));
   }
   if (words.has(MGroup::kStop, MWord::kStop)) {
     add_rest(0.0, line, blocks);
@@ -47,9 +48,7 @@ Expected<void> Interpreter::add_move(const LineWords& words, std::int64_t line,
   if (state_.is_arc()) {
     block.motion = Motion::kArc;
     block.feedrate = state_.feedrate;
-    if (auto shaped = shape_arc(words, block); !shaped) {
-      return shaped;
-    }
+    TWIN_CHECK(shape_arc(words, block));
   } else {
     const bool is_rapid = state_.motion == MotionMode::kRapid;
     block.motion = is_rapid ? Motion::kRapid : Motion::kLinear;
@@ -99,6 +98,87 @@ Vec3 Interpreter::target(const LineWords& words) const noexcept {
     }
   }
   return place;
+}
+
+bool Interpreter::concerns_nurbs(const LineWords& words) const noexcept {
+  if (nurbs_.is_open() || (state_.motion == MotionMode::kKnotNurbs && words.has_any("XYZKR"))) {
+    return true;
+  }
+  if (!words.has(GGroup::kMotion)) {
+    return false;
+  }
+  const GWord word = words.g(GGroup::kMotion);
+  return word == GWord::kNurbs || word == GWord::kNurbsEnd || word == GWord::kKnotNurbs ||
+         word == GWord::kKnotNurbsEnd;
+}
+
+Expected<void> Interpreter::execute_nurbs(const LineWords& words, MotionMode before,
+                                          std::int64_t line, LineBlocks& blocks) {
+  if (words.has_m()) {
+    return nurbs_.is_open() ? tl::unexpected<Error>(nurbs_.cut_short("an M word comes"))
+                            : fail_at(words.column(GGroup::kMotion),
+                                      "an M word beside a NURBS: expected it on a line of its own");
+  }
+  const bool has_motion = words.has(GGroup::kMotion);
+  const GWord word = has_motion ? words.g(GGroup::kMotion) : GWord::kNurbs;
+  if (has_motion && (word == GWord::kNurbsEnd || word == GWord::kKnotNurbsEnd)) {
+    return end_nurbs(words, before, blocks);
+  }
+  if (nurbs_.is_open()) {
+    if (has_motion && (word != GWord::kNurbs || before != MotionMode::kNurbs)) {
+      return tl::unexpected<Error>(nurbs_.cut_short("another G word of motion comes"));
+    }
+    TWIN_CHECK(nurbs_.add(words, state_));
+  } else if (!has_motion) {
+    return fail_at(words.first_column("XYZKR"),
+                   fmt::format("the NURBS of line {} is complete: expected a G word of motion",
+                               nurbs_.line()));
+  } else {
+    TWIN_CHECK(nurbs_.open(words, state_, position_, line));
+  }
+  return nurbs_.is_complete() ? add_nurbs(words.column('K'), blocks) : Expected<void>{};
+}
+
+/// G05.3, or G06.3 behind the last knot.
+Expected<void> Interpreter::end_nurbs(const LineWords& words, MotionMode before,
+                                      LineBlocks& blocks) {
+  const int column = words.column(GGroup::kMotion);
+  const bool ends_knots = words.g(GGroup::kMotion) == GWord::kKnotNurbsEnd;
+  if (before != (ends_knots ? MotionMode::kKnotNurbs : MotionMode::kNurbs)) {
+    return fail_at(column, fmt::format("{} without {} before it", ends_knots ? "G06.3" : "G05.3",
+                                       ends_knots ? "G06.2" : "G05.2"));
+  }
+  if (words.has_any("ABCDEFHIJKLOPQRSTUVWXYZ")) {
+    return fail_at(words.first_column("ABCDEFHIJKLOPQRSTUVWXYZ"),
+                   "a word beside the end of a NURBS: expected it on a line of its own");
+  }
+  if (ends_knots && nurbs_.is_open()) {
+    return tl::unexpected<Error>(nurbs_.cut_short("G06.3 comes"));
+  }
+  return ends_knots ? Expected<void>{} : add_nurbs(column, blocks);
+}
+
+Expected<void> Interpreter::add_nurbs(int column, LineBlocks& blocks) {
+  const std::int64_t line = nurbs_.line();
+  TWIN_TRY(auto curve, nurbs_.close(column));
+  Block& block = blocks.block[blocks.count++];
+  block.motion = Motion::kNurbs;
+  block.path_mode = state_.path_mode;
+  block.start = position_;
+  block.end = position_ = programmed_ = curve->curve.control_points().back();
+  block.nurbs = std::move(curve);
+  block.feedrate = state_.feedrate;
+  block.tolerance = state_.tolerance;
+  block.dwell = 0.0;
+  block.line = line;
+  return {};
+}
+
+Expected<void> Interpreter::finish() const {
+  if (nurbs_.is_open()) {
+    return tl::unexpected<Error>(nurbs_.cut_short("the program ends"));
+  }
+  return {};
 }
 
 }  // namespace twin::gcode

@@ -40,7 +40,7 @@ class Interpreter {
   /// @param blocks  filled with its blocks
   Expected<void> execute(const LineWords& words, std::int64_t line, LineBlocks& blocks);
 
-  /// The program ends: whether it may, here.
+  /// Ends the program. @returns an error if a NURBS is still open
   Expected<void> finish() const;
 
  private:

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/number.hpp"
 
 namespace twin::gcode {
@@ -34,13 +34,12 @@ std::string not_text(char c) {
 
 }  // namespace
 
-Expected<bool> Lexer::next(Word& word) {
-  if (auto skipped = skip_blanks_and_comments(); !skipped) {
-    return tl::unexpected<Error>(std::move(skipped.error()));
-  }
+Expected<std::optional<Word>> Lexer::next() {
+  TWIN_CHECK(skip_blanks_and_comments());
   if (at_ == line_.size()) {
-    return false;
+    return std::nullopt;
   }
+  Word word;
   word.letter = upper(line_[at_]);
   word.column = column();
   if (word.letter < 'A' || word.letter > 'Z') {
@@ -67,7 +66,7 @@ Expected<bool> Lexer::next(Word& word) {
                                "number such as {}0.001",
                                word.letter, word.letter));
   }
-  return true;
+  return word;
 }
 
 Expected<void> Lexer::skip_blanks_and_comments() {
@@ -76,9 +75,7 @@ Expected<void> Lexer::skip_blanks_and_comments() {
     if (is_blank(c)) {
       ++at_;
     } else if (c == '(' || c == ';') {
-      if (auto skipped = skip_comment(); !skipped) {
-        return skipped;
-      }
+      TWIN_CHECK(skip_comment());
     } else {
       break;
     }

@@ -1,10 +1,21 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 
 namespace twin::gcode {
+
+/// A fault of the program at a column of the line being read; Reader adds the file and the line.
+///
+/// @param column   column in the line, in bytes from 1, or 0
+/// @param message  what was found and what was expected
+inline tl::unexpected<Error> fail_at(int column, std::string message) {
+  return tl::unexpected<Error>(Error{ErrorCode::kProgram, std::move(message), {}, 0, column});
+}
 
 /// One word of an NC line: a letter and its number.
 struct Word {
@@ -17,14 +28,15 @@ struct Word {
 ///
 ///   line = { blank | comment | word }
 ///   word = letter { blank } [ sign ] digits-with-point
-/// Comments are ( to ) without nesting, and ; to the end of the line.
+/// A comment goes from ( to ) and has no comment inside, or from ; to the end of the line.
 class Lexer {
  public:
   /// @param line  one line without its end; must outlive the lexer
   explicit Lexer(std::string_view line) : line_(line) {}
 
-  /// Reads the next word; false at the end of the line.
-  Expected<bool> next(Word& word);
+  /// Reads the next word.
+  /// @returns the word, nothing at the end of the line, or an error with its column
+  Expected<std::optional<Word>> next();
 
  private:
   Expected<void> skip_blanks_and_comments();

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 
 namespace twin::gcode {
 namespace {
@@ -74,9 +74,7 @@ Expected<void> LineSource::refill() {
 
 Expected<std::optional<std::string_view>> LineSource::next() {
   if (file_ && end_ - begin_ < kWindow) {
-    if (auto filled = refill(); !filled) {
-      return tl::unexpected<Error>(std::move(filled.error()));
-    }
+    TWIN_CHECK(refill());
   }
   if (line_ == 0 && begin_ == 0 &&
       std::string_view(buffer_).substr(0, end_).starts_with(kByteOrderMark)) {

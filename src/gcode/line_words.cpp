@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "gcode/fault.hpp"
 #include "gcode/letters.hpp"
 #include "gcode/lexer.hpp"
 
@@ -40,18 +39,12 @@ Expected<void> check_number(const Word& word) {
 Expected<void> LineWords::read(std::string_view line) {
   letters_ = g_groups_ = m_groups_ = 0;
   Lexer lexer(line);
-  Word word;
   while (true) {
-    auto found = lexer.next(word);
-    if (!found) {
-      return tl::unexpected<Error>(std::move(found.error()));
-    }
-    if (!*found) {
+    TWIN_TRY(const auto word, lexer.next());
+    if (!word) {
       return {};
     }
-    if (auto added = add(word); !added) {
-      return added;
-    }
+    TWIN_CHECK(add(*word));
   }
 }
 

@@ -16,7 +16,8 @@ struct Word;
 /// A letter has one word at most on a line, and so has each modal group of G and of M words.
 class LineWords {
  public:
-  /// Takes the words of a line in place of those it held; refuses what no line may have.
+  /// Reads the words of a line, which replace those of the line before.
+  /// @returns an error with its column for a word that no line may have
   Expected<void> read(std::string_view line);
 
   bool is_empty() const noexcept { return letters_ == 0 && g_groups_ == 0 && m_groups_ == 0; }

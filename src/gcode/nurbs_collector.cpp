@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/modal_state.hpp"
+#include "geometry/nurbs/knot_vector.hpp"
 
 namespace twin::gcode {
 namespace {
 
+constexpr std::size_t kMostOrder = geometry::kMaxDegree + 1;
 constexpr std::string_view kAxisLetters = "XYZ";
 constexpr double kApart = 1e-3;  // of the first control point and the position before [mm]
 
@@ -23,15 +26,13 @@ Expected<void> NurbsCollector::open(const LineWords& words, const ModalState& st
   has_knots_ = state.motion == MotionMode::kKnotNurbs;
   line_ = line;
   column_ = words.column(GGroup::kMotion);
-  if (auto checked = check_start(words, state); !checked) {
-    return checked;
-  }
+  TWIN_CHECK(check_start(words, state));
   is_open_ = true;
   is_past_points_ = lacks_first_knot_ = false;
   knots_.clear();
   points_.assign(1, position);
   weights_.assign(1, 1.0);
-  return has_knots_ ? start_with_knots(words, state) : add_uniform(words, state, true);
+  return has_knots_ ? start_with_knots(words, state) : start_uniform(words, state);
 }
 
 Expected<void> NurbsCollector::add(const LineWords& words, const ModalState& state) {
@@ -44,7 +45,7 @@ Expected<void> NurbsCollector::add(const LineWords& words, const ModalState& sta
                                  name(), line_));
     }
   }
-  return has_knots_ ? add_with_knot(words, state) : add_uniform(words, state, false);
+  return has_knots_ ? add_with_knot(words, state) : add_uniform(words, state);
 }
 
 bool NurbsCollector::is_complete() const noexcept {
@@ -91,37 +92,33 @@ Error NurbsCollector::cut_short(std::string_view reason) const {
   return error;
 }
 
-Expected<void> NurbsCollector::add_uniform(const LineWords& words, const ModalState& state,
-                                           bool is_first) {
-  if (auto checked = check_letters(words, is_first ? "FLNPSTXY" : "NPXY"); !checked) {
-    return checked;
-  }
-  if (is_first) {
-    if (auto set = set_order(words, 'L', 3, 3); !set) {
-      return set;
-    }
-  }
-  if (words.has('X') != words.has('Y')) {
-    return fail_at(words.first_column(kAxisLetters), "a control point of G05.2 needs both X and Y");
-  }
-  if (words.has('X')) {
-    return add_point(words, state, 'P');
-  }
-  if (words.has('P') && !is_first) {
+Expected<void> NurbsCollector::start_uniform(const LineWords& words, const ModalState& state) {
+  TWIN_CHECK(check_letters(words, "FLNPSTXY"));
+  TWIN_CHECK(set_order(words, 'L', 3, 3));
+  return add_uniform_point(words, state);
+}
+
+Expected<void> NurbsCollector::add_uniform(const LineWords& words, const ModalState& state) {
+  TWIN_CHECK(check_letters(words, "NPXY"));
+  if (words.has('P') && !words.has('X') && !words.has('Y')) {
     return fail_at(words.column('P'),
                    "P without X and Y: expected that beside G05.2 only, where it is the weight of "
                    "the position before");
   }
-  return set_weight(words, 'P');
+  return add_uniform_point(words, state);
+}
+
+/// The control point of a line, or the weight of the last one.
+Expected<void> NurbsCollector::add_uniform_point(const LineWords& words, const ModalState& state) {
+  if (words.has('X') != words.has('Y')) {
+    return fail_at(words.first_column(kAxisLetters), "a control point of G05.2 needs both X and Y");
+  }
+  return words.has('X') ? add_point(words, state, 'P') : set_weight(words, 'P');
 }
 
 Expected<void> NurbsCollector::start_with_knots(const LineWords& words, const ModalState& state) {
-  if (auto checked = check_letters(words, "FKNPRSTXYZ"); !checked) {
-    return checked;
-  }
-  if (auto set = set_order(words, 'P', 2, 4); !set) {
-    return set;
-  }
+  TWIN_CHECK(check_letters(words, "FKNPRSTXYZ"));
+  TWIN_CHECK(set_order(words, 'P', 2, 4));
   if (words.has_any(kAxisLetters)) {
     const double apart = (place_of(words, state) - points_.front()).norm();
     if (!(apart <= kApart)) {
@@ -131,9 +128,7 @@ Expected<void> NurbsCollector::start_with_knots(const LineWords& words, const Mo
                                  apart));
     }
   }
-  if (auto set = set_weight(words, 'R'); !set) {
-    return set;
-  }
+  TWIN_CHECK(set_weight(words, 'R'));
   lacks_first_knot_ = !words.has('K');
   if (lacks_first_knot_ && words.has_any("XYZR")) {
     return fail_at(words.first_column("XYZR"), "no knot: expected a K word with the control point");
@@ -142,9 +137,7 @@ Expected<void> NurbsCollector::start_with_knots(const LineWords& words, const Mo
 }
 
 Expected<void> NurbsCollector::add_with_knot(const LineWords& words, const ModalState& state) {
-  if (auto checked = check_letters(words, "KNRXYZ"); !checked) {
-    return checked;
-  }
+  TWIN_CHECK(check_letters(words, "KNRXYZ"));
   if (!words.has('K')) {
     return words.has_any("XYZR") ? fail_at(words.first_column("XYZR"),
                                            "no knot: expected a K word with the control point")
@@ -159,9 +152,7 @@ Expected<void> NurbsCollector::add_with_knot(const LineWords& words, const Modal
       return fail_at(words.first_column(kAxisLetters),
                      "a control point behind a knot alone: expected knots to the end");
     }
-    if (auto added = add_point(words, state, 'R'); !added) {
-      return added;
-    }
+    TWIN_CHECK(add_point(words, state, 'R'));
   } else if (words.has('R')) {
     return fail_at(words.column('R'), "a weight without a control point: expected X, Y or Z");
   } else if (points_.size() < order_) {
@@ -207,6 +198,97 @@ std::vector<double> NurbsCollector::uniform_knots() const {
   }
   knots.insert(knots.end(), order_, static_cast<double>(last));
   return knots;
+}
+
+Expected<void> NurbsCollector::add_knot(double knot, int column) {
+  const std::size_t i = knots_.size();
+  const auto fault = [&](std::string_view expected) {
+    return fail_at(column, fmt::format("knot K{:.10g}, number {} of rank {}: expected {}", knot,
+                                       i + 1, order_, expected));
+  };
+  if (i > 0 && knot < knots_.back()) {
+    return fault(fmt::format("not less than the one before it, K{:.10g}", knots_.back()));
+  }
+  if (i > 0 && i < order_ && knot != knots_.front()) {
+    return fault(fmt::format("K{:.10g}, for the first knot occurs as often as the rank says",
+                             knots_.front()));
+  }
+  if (is_past_points_ && i > points_.size() && knot != knots_.back()) {
+    return fault(
+        fmt::format("K{:.10g}, for the last knot occurs as often as the rank says", knots_.back()));
+  }
+  const std::size_t most = order_ - (is_past_points_ ? order_ - 1 : 1);  // like knots before it
+  if (i >= order_ && (!is_past_points_ || i == points_.size()) && knot == knots_[i - most]) {
+    return fault("a greater one, for that knot is there as often as it may be");
+  }
+  knots_.push_back(knot);
+  return {};
+}
+
+Expected<void> NurbsCollector::check_start(const LineWords& words, const ModalState& state) const {
+  const auto refuse = [&](std::string_view reason) {
+    return fail_at(column_, fmt::format("{} {}", name(), reason));
+  };
+  if (state.is_incremental) {
+    return refuse("with G91 in force: expected G90, absolute control points");
+  }
+  if (state.path_mode == PathMode::kExactStop) {
+    return refuse("with G61 (exact stop) in force: expected G64");
+  }
+  if (!has_knots_ && state.plane != Plane::kXy) {
+    return refuse("outside the XY plane: expected G17");
+  }
+  if (!(state.feedrate > 0.0)) {
+    return refuse("has no feedrate: expected an F word on this line or before it");
+  }
+  if (words.has(GGroup::kDwell)) {
+    return refuse("beside G04: expected them on lines of their own");
+  }
+  return {};
+}
+
+Expected<void> NurbsCollector::check_letters(const LineWords& words,
+                                             std::string_view allowed) const {
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if (words.has(letter) && allowed.find(letter) == std::string_view::npos) {
+      return fail_at(words.column(letter),
+                     fmt::format("{} does not belong on this line of the {} of line {}", letter,
+                                 name(), line_));
+    }
+  }
+  return {};
+}
+
+/// Order, which is degree + 1; FANUC calls it the rank.
+Expected<void> NurbsCollector::set_order(const LineWords& words, char letter, std::size_t least,
+                                         std::size_t if_missing) {
+  order_ = if_missing;
+  if (words.has(letter)) {
+    const double order = words.value(letter);
+    if (!(order >= static_cast<double>(least) && order <= static_cast<double>(kMostOrder)) ||
+        order != std::floor(order)) {
+      return fail_at(
+          words.column(letter),
+          fmt::format("{}{:.10g} (order, degree + 1): expected a whole number from {} to "
+                      "{}",
+                      letter, order, least, kMostOrder));
+    }
+    order_ = static_cast<std::size_t>(order);
+  }
+  return {};
+}
+
+/// Weight of the last control point.
+Expected<void> NurbsCollector::set_weight(const LineWords& words, char letter) {
+  if (words.has(letter)) {
+    const double weight = words.value(letter);
+    if (!(weight >= kLeastWeight && weight <= kMostWeight)) {
+      return fail_at(words.column(letter), fmt::format("weight {}{:.10g}: expected {:g} to {:g}",
+                                                       letter, weight, kLeastWeight, kMostWeight));
+    }
+    weights_.back() = weight;
+  }
+  return {};
 }
 
 }  // namespace twin::gcode

@@ -33,11 +33,11 @@ struct ModalState;
 ///     K-                           as many lines of a knot alone as the rank
 ///     [G06.3]
 ///
-/// The first control point is the position before; where the first line names no axis, it is that
-/// point without being said, and K may be left out too, being that of the second line. First and
-/// last knot must each occur as often as the rank. The last knot ends the curve; G06.3 behind it is
-/// LinuxCNC's. Source: FANUC Series 15i/150i-MA operator's manual (programming), "NURBS
-/// interpolation (G06.2)"; FANUC has rank 2 to 4.
+/// The first control point is the position before. The first line need not name its axes, nor its K
+/// then, which is the knot of the second line. The first and the last knot must each occur as often
+/// as the rank. The last knot ends the curve; G06.3 after it is LinuxCNC's. Source: FANUC Series
+/// 15i/150i-MA operator's manual (programming), "NURBS interpolation (G06.2)"; FANUC has rank 2 to
+/// 4.
 ///
 /// Both need G90, G64 and a feedrate, and every word that is not named here is refused.
 class NurbsCollector {
@@ -75,7 +75,9 @@ class NurbsCollector {
   Expected<void> check_letters(const LineWords& words, std::string_view allowed) const;
   Expected<void> set_order(const LineWords& words, char letter, std::size_t least,
                            std::size_t if_missing);
-  Expected<void> add_uniform(const LineWords& words, const ModalState& state, bool is_first);
+  Expected<void> start_uniform(const LineWords& words, const ModalState& state);
+  Expected<void> add_uniform(const LineWords& words, const ModalState& state);
+  Expected<void> add_uniform_point(const LineWords& words, const ModalState& state);
   Expected<void> start_with_knots(const LineWords& words, const ModalState& state);
   Expected<void> add_with_knot(const LineWords& words, const ModalState& state);
   Expected<void> add_point(const LineWords& words, const ModalState& state, char weight);

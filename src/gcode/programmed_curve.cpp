@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "gcode/arc.hpp"
+#include "gcode/block.hpp"
 
 namespace twin::gcode {
 namespace {

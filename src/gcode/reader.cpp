@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 
 namespace twin::gcode {
 namespace {
@@ -14,11 +14,8 @@ constexpr std::int64_t kLargestLine = std::numeric_limits<int>::max();  // an Er
 }  // namespace
 
 Expected<Reader> Reader::open(const std::string& path, const ReaderOptions& options) {
-  auto source = LineSource::open(path);
-  if (!source) {
-    return tl::unexpected<Error>(std::move(source.error()));
-  }
-  return Reader(std::move(*source), path, options);
+  TWIN_TRY(auto source, LineSource::open(path));
+  return Reader(std::move(source), path, options);
 }
 
 Reader Reader::from_text(std::string text, std::string name, const ReaderOptions& options) {
@@ -54,15 +51,12 @@ Expected<std::optional<Block>> Reader::next() {
 /// Reads one line into blocks_, which is empty if the line does not move.
 Expected<void> Reader::read_line() {
   next_block_ = blocks_.count = 0;
-  auto line = source_.next();
+  TWIN_TRY(const auto line, source_.next());
   if (!line) {
-    return tl::unexpected<Error>(std::move(line.error()));
-  }
-  if (!*line) {
     is_at_end_ = true;
     return {};
   }
-  std::string_view text = **line;
+  std::string_view text = *line;
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == std::string_view::npos) {
     return {};
@@ -111,9 +105,7 @@ Expected<void> Reader::read_percent_line(std::string_view text, int column) {
 }
 
 Expected<void> Reader::finish() {
-  if (auto complete = interpreter_.finish(); !complete) {
-    return complete;
-  }
+  TWIN_CHECK(interpreter_.finish());
   if (has_moved_) {
     return {};
   }

@@ -16,8 +16,8 @@ namespace twin::gcode {
 
 struct ReaderOptions {
   Vec3 start{0.0, 0.0, 0.0};  ///< position before the first block [mm]
-  std::optional<double>
-      feedrate;  ///< in place of the program's F words, which may then be missing [mm/s]
+  /// Feedrate in place of the program's F words, which may then be missing [mm/s].
+  std::optional<double> feedrate;
   bool block_delete = true;  ///< skip lines that begin with '/'
 };
 
@@ -25,13 +25,16 @@ struct ReaderOptions {
 ///
 ///   file -> LineSource -> line -> Lexer -> LineWords -> Interpreter -> Block
 ///
-/// Understood: G00 to G04, G05.2 G05.3 and G06.2 G06.3 (NURBS, see NurbsCollector), G17 G18 G19,
-/// G20 G21, G40, G49, G54, G61 G61.1 G64 P, G80, G90 G91, G94, F S T N, M00 to M09, M30, comments (
-/// ) and ;, the % lines, block delete; upper or lower case, with or without blanks between words.
-/// G17 G21 G90 G94 G64 are in force at the start, and no motion word. Whatever else a program holds
-/// is an error with line and column; nothing is ignored in silence.
+/// The reader understands
+///   G00 to G04, G05.2 G05.3 and G06.2 G06.3 (NURBS, see NurbsCollector), G17 G18 G19, G20 G21,
+///   G40, G49, G54, G61 G61.1 G64 P, G80, G90 G91, G94, F S T N, M00 to M09, M30,
+/// comments from ( to ) and from ; to the end of the line, the lines with %, and block delete.
+/// Letters are upper or lower case, with or without blanks between words. G17 G21 G90 G94 G64 are
+/// in force at the start, and no motion word is. Anything else in a program is an error with line
+/// and column; nothing is ignored in silence.
 ///
-/// A block's start is the end of the block before it, bit for bit. Moves of no length vanish.
+/// A block starts at the end of the block before it, bit for bit. A move of no length makes no
+/// block.
 class Reader {
  public:
   /// Opens a program in a file. Fails with ErrorCode::kFile if it is missing, unreadable or a

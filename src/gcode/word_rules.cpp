@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "gcode/fault.hpp"
+#include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
 #include "gcode/modal_state.hpp"
 
@@ -100,18 +100,14 @@ Expected<void> check_words(const LineWords& words, const ModalState& state) {
                    "L (repeat count, or order of a NURBS) needs G05.2 on its line");
   }
   if (words.has('P') || words.has(GGroup::kDwell)) {
-    if (auto checked = check_p_and_dwell(words); !checked) {
-      return checked;
-    }
+    TWIN_CHECK(check_p_and_dwell(words));
   }
   if (!state.is_arc() && words.has_any(kOfArcs)) {
     const int column = words.first_column(kOfArcs);
     return fail_at(column, "an arc's I, J, K or R needs G02 or G03 in force");
   }
   if (state.is_arc()) {
-    if (auto checked = check_arc_words(words, state); !checked) {
-      return checked;
-    }
+    TWIN_CHECK(check_arc_words(words, state));
   }
   if (!asks_for_move(words, state)) {
     return {};

@@ -1,16 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 
-#include "core/limits.hpp"
-#include "core/path_settings.hpp"
 #include "gcode/block.hpp"
 #include "path/segment.hpp"
 
 namespace twin::path {
 
-/// Turns blocks into segments, one after the other, looking no further ahead than it needs.
+/// Turns blocks into segments, one after the other, looking no further ahead than it needs: the
+/// PathBuilder of the paper's planner, the SmoothBuilder of the certified one.
 class Builder {
  public:
   using Sink = std::function<void(Segment&&)>;
@@ -25,9 +23,5 @@ class Builder {
   /// No more blocks follow.
   virtual void finish() = 0;
 };
-
-/// SmoothBuilder where is_certified(settings, model), else PathBuilder.
-std::unique_ptr<Builder> make_builder(const PathSettings& settings, const PlanningModel& model,
-                                      const Limits& limits, Builder::Sink sink);
 
 }  // namespace twin::path

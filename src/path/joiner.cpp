@@ -8,15 +8,33 @@
 namespace twin::path {
 namespace {
 
-constexpr double kWidest = 4.0;         // half width of a bump [mm]
-constexpr double kLeastPace = 0.02;     // |dC/ds| at a corner
+/// Largest half width of a bump [mm]. A wider bump has less curvature and a higher feedrate. Twice
+/// as wide, lines and runs wait for twice the length of path before they go to the writer.
+constexpr double kWidest = 4.0;
+
+/// A corner stays sharp where the mean of both tangents is shorter than this [-]. It is the pace
+/// |dC/ds| in the middle of the bump, which is near zero where the path turns back. A larger value
+/// leaves more corners sharp, a smaller one makes bumps whose curvature allows next to no feedrate.
+constexpr double kLeastPace = 0.02;
+
 constexpr double kNoJump = 1e-10;       // of C' [-] and C'' [1/mm]
 constexpr double kArcDeviation = 1e-5;  // of an arc's pieces [mm]
-constexpr double kShareUsed = 0.975;    // of the tolerance; set points tell a vertex so exactly
-constexpr double kMergedLine = 1.0;     // a shorter line between two bumps is part of a curve [mm]
+
+/// Share of the tolerance that bump and base path use. The rest is for set points that pass a
+/// vertex between two periods: they tell its place no more exactly. A larger share makes corners
+/// faster by its square root, and the measured deviation may exceed the tolerance.
+constexpr double kShareUsed = 0.975;
+
+/// A line between two bumps becomes part of the curve if it is shorter than this [mm]. A larger
+/// value makes fewer segments, a smaller one keeps more lines exact.
+constexpr double kMergedLine = 1.0;
+
 constexpr double kNothing = 1e-9;       // a length that is none [mm]
 constexpr double kShortestBody = 1e-4;  // between two bumps, unless there is none at all [mm]
-constexpr std::size_t kMostHeld = 64;   // spans of a run that wait for its end
+
+/// Spans of a run that wait for its end. The most bound the memory; the fewest let a bump end
+/// within a span that it changes, whatever the length of the spans.
+constexpr std::size_t kMostHeld = 64;
 constexpr std::size_t kFewestHeld = 12;
 
 }  // namespace
@@ -24,14 +42,14 @@ constexpr std::size_t kFewestHeld = 12;
 void Joiner::take_block(const Vec3& from, const Vec3& to, double begin, double end) {
   begin_element(Kind::kLine, begin, end);
   under_way_.line = {from, (to - from) / (to - from).norm()};
-  settle_begin();
+  join_to_last();
   end_element();
 }
 
 void Joiner::take_arc(const Arc& arc, double begin) {
   begin_element(Kind::kArc, begin, begin + arc.length);
   under_way_.arc = arc;
-  settle_begin();
+  join_to_last();
   end_element();
 }
 
@@ -41,12 +59,12 @@ void Joiner::take_span(const geometry::SpanCubic& span, double deviation) {
   }
   under_way_.end = span.end;
   under_way_.spans.push_back({span, deviation});
-  if (!has_begin_ && (under_way_.end - under_way_.begin >= 2.0 * kWidest ||
+  if (!is_joined_ && (under_way_.end - under_way_.begin >= 2.0 * kWidest ||
                       under_way_.spans.size() >= kMostHeld)) {
-    settle_begin();
+    join_to_last();
   }
-  if (has_begin_) {
-    give_away_run();
+  if (is_joined_) {
+    release_spans();
   }
 }
 
@@ -54,8 +72,8 @@ void Joiner::end_run() {
   if (under_way_.kind == Kind::kNone) {
     return;
   }
-  if (!has_begin_) {
-    settle_begin();
+  if (!is_joined_) {
+    join_to_last();
   }
   end_element();
 }
@@ -66,7 +84,7 @@ void Joiner::begin_element(Kind kind, double begin, double end) {
   under_way_.end = end;
   under_way_.tolerance = tolerance_;
   under_way_.spans.restart(0);
-  has_begin_ = false;
+  is_joined_ = false;
 }
 
 void Joiner::end_element() {
@@ -76,13 +94,13 @@ void Joiner::end_element() {
 
 void Joiner::finish() {
   if (before_.kind != Kind::kNone) {
-    put_body(before_, before_.end);
+    emit_body(before_, before_.end);
     before_.kind = Kind::kNone;
   }
 }
 
-/// Spans of a run that no bump at its end can reach.
-void Joiner::give_away_run() {
+/// Sends the spans of a run to the writer that no bump at its end can reach.
+void Joiner::release_spans() {
   Element& run = under_way_;
   while (run.spans.size() > kFewestHeld &&
          (run.end - run.spans.front().cubic.end >= kWidest || run.spans.size() > kMostHeld)) {
@@ -96,17 +114,18 @@ void Joiner::give_away_run() {
 }
 
 /// Base path at one of an element's ends, by its arc length or the run's parameter.
-PathPoint Joiner::place(const Element& element, bool at_end) {
+PathPoint Joiner::base_point(const Element& element, ElementEnd end) {
+  const bool is_last = end == ElementEnd::kLast;
   if (element.kind == Kind::kLine) {
-    return point_at(element.line, at_end ? element.end - element.begin : 0.0);
+    return point_at(element.line, is_last ? element.end - element.begin : 0.0);
   }
   if (element.kind == Kind::kArc) {
-    return point_at(element.arc, at_end ? element.arc.length : 0.0);
+    return point_at(element.arc, is_last ? element.arc.length : 0.0);
   }
   const geometry::SpanCubic& cubic =
-      at_end ? element.spans.back().cubic : element.spans.front().cubic;
+      is_last ? element.spans.back().cubic : element.spans.front().cubic;
   const geometry::SpanCubic there =
-      geometry::part_of(cubic, at_end ? cubic.end : cubic.begin, cubic.end);
+      geometry::part_of(cubic, is_last ? cubic.end : cubic.begin, cubic.end);
   return {there.c0, there.c1, 2.0 * there.c2};
 }
 
@@ -122,27 +141,27 @@ double Joiner::deviation(const Element& element, double begin, double end) {
   return largest;
 }
 
-/// The corner between the last element and the one under way.
-void Joiner::settle_begin() {
-  has_begin_ = true;
+/// Shapes the corner between the last element and the one under way: a bump, or sharp.
+void Joiner::join_to_last() {
+  is_joined_ = true;
   if (before_.kind == Kind::kNone) {
     return;
   }
-  const PathPoint end = place(before_, true);
-  const PathPoint begin = place(under_way_, false);
+  const PathPoint end = base_point(before_, ElementEnd::kLast);
+  const PathPoint begin = base_point(under_way_, ElementEnd::kFirst);
   geometry::CornerBump bump{begin.tangent - end.tangent, begin.curvature - end.curvature};
   const bool has_jump = bump.turn.norm() > kNoJump || bump.bend.norm() > kNoJump;
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
   if (width < 2.0 * geometry::kShortestPiece) {
-    put_body(before_, before_.end);
+    emit_body(before_, before_.end);
     if (has_jump) {
       writer_.end_curve();
     }
     return;
   }
-  put_body(before_, before_.end - width);
-  put_corner(bump, width);
+  emit_body(before_, before_.end - width);
+  emit_bump(bump, width);
 }
 
 /// Half width that the tolerance and both elements allow [mm].
@@ -163,7 +182,7 @@ double Joiner::bump_width(const geometry::CornerBump& bump) const {
   return left > kNothing && left < least ? width - (least - left) : width;
 }
 
-void Joiner::put_corner(const geometry::CornerBump& bump, double width) {
+void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {
   const double corner = before_.end;
   const double base = std::max(deviation(before_, corner - width, corner),
                                deviation(under_way_, corner, corner + width));
@@ -206,8 +225,8 @@ void Joiner::append_pieces(const Element& element, double begin, double end) {
   }
 }
 
-/// What is left of an element before `end`.
-void Joiner::put_body(Element& element, double end) {
+/// Sends what is left of an element before `end` to the writer.
+void Joiner::emit_body(Element& element, double end) {
   const double length = end - element.from;
   if (length <= kNothing) {
     return;
@@ -215,7 +234,7 @@ void Joiner::put_body(Element& element, double end) {
   if (element.kind == Kind::kArc) {
     const bool is_whole = element.from == element.begin && end == element.end;
     writer_.arc(is_whole ? element.arc
-                         : arc_part(element.arc, element.from - element.begin, end - element.begin),
+                         : part_of(element.arc, element.from - element.begin, end - element.begin),
                 element.from, end);
   } else if (element.kind == Kind::kLine &&
              length >= std::min(kMergedLine, element.end - element.begin)) {

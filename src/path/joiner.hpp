@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "geometry/smoothing/corner_bump.hpp"
-#include "geometry/smoothing/run_spline.hpp"
+#include "geometry/smoothing/run_sink.hpp"
 #include "geometry/smoothing/sliding_vector.hpp"
-#include "path/arc_part.hpp"
+#include "path/arc_pieces.hpp"
 #include "path/segment_writer.hpp"
 
 namespace twin::path {
@@ -19,9 +19,9 @@ namespace twin::path {
 ///
 /// A corner that nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp.
 ///
-/// Elements come in order with their base path lengths; of a run the spans come as they are
-/// settled. Each element but the last part of a run under way is given away as soon as the corner
-/// behind it is known.
+/// Elements come in order, with their base path lengths; a run comes span by span. An element goes
+/// to the writer as soon as the corner behind it has its shape; a long run goes on the way, except
+/// for the spans that the corner at its end may change.
 class Joiner : public geometry::RunSink {
  public:
   explicit Joiner(SegmentWriter& writer) : writer_(writer) {}
@@ -41,6 +41,7 @@ class Joiner : public geometry::RunSink {
     geometry::SpanCubic cubic;
     double deviation;
   };
+  enum class ElementEnd : std::uint8_t { kFirst, kLast };
   enum class Kind : std::uint8_t { kNone, kLine, kArc, kRun };
   struct Element {
     Kind kind = Kind::kNone;
@@ -54,14 +55,14 @@ class Joiner : public geometry::RunSink {
   };
 
   void begin_element(Kind kind, double begin, double end);
-  void settle_begin();
+  void join_to_last();
   void end_element();
-  void give_away_run();
+  void release_spans();
   double bump_width(const geometry::CornerBump& bump) const;
-  void put_corner(const geometry::CornerBump& bump, double width);
-  void put_body(Element& element, double end);
+  void emit_bump(const geometry::CornerBump& bump, double width);
+  void emit_body(Element& element, double end);
 
-  static PathPoint place(const Element& element, bool at_end);
+  static PathPoint base_point(const Element& element, ElementEnd end);
   static double deviation(const Element& element, double begin, double end);
   void append_pieces(const Element& element, double begin, double end);
 
@@ -69,7 +70,7 @@ class Joiner : public geometry::RunSink {
   double tolerance_ = 0.0;
   Element before_;
   Element under_way_;
-  bool has_begin_ = false;  // the corner at its begin is settled
+  bool is_joined_ = false;  // the corner at the begin of under_way_ has its shape
   std::vector<geometry::SpanCubic> pieces_;
 };
 

@@ -5,7 +5,6 @@
 
 #include "gcode/programmed_curve.hpp"
 #include "geometry/nurbs/refine.hpp"
-#include "path/curve_segment.hpp"
 #include "path/short_block.hpp"
 
 namespace twin::path {

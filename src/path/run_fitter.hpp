@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,14 +18,14 @@ namespace twin::path {
 /// Fits one run of continuous short blocks by successive curves that join with continuous tangent
 /// and curvature, or by Bezier pieces that join with continuous tangent.
 ///
-/// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks, each
-/// as soon as a few more points are known. At the joint of two pieces both are given the same first
-/// and second derivative with respect to chord length: those of the interpolating curve through the
-/// points around the joint. The influence of a point on an interpolating cubic falls by about 0.27
-/// a point, so a handful of points settles the joint.
+/// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks. A
+/// piece is fitted as soon as a few points after it are known. At the joint of two pieces both have
+/// the same first and second derivative with respect to chord length: those of the interpolating
+/// curve through the points around the joint. The effect of a point on an interpolating cubic falls
+/// by a factor of about 0.27 with each point, so a handful of points decides the joint.
 ///
-/// A piece that leaves the chord tolerance somewhere is cut there: the block it leaves stays a
-/// line.
+/// Where a piece leaves the chord tolerance, it ends before the block in which it deviates most,
+/// and that block stays a line.
 class RunFitter {
  public:
   using Sink = std::function<void(Segment&&)>;
@@ -49,9 +50,13 @@ class RunFitter {
   double tolerance() const;
   void emit_piece(std::size_t count);
   geometry::EndCondition condition_at(std::size_t joint);
-  bool fit(std::span<const Vec3> points, const geometry::EndCondition& end, geometry::Curve& curve);
+  geometry::FitResult fit(std::span<const Vec3> points, const geometry::EndCondition& end,
+                          geometry::Curve& curve);
   const std::vector<double>& parameters() const;
-  bool emit_curve(std::size_t count, const geometry::EndCondition& end, std::size_t& worst);
+  std::optional<std::size_t> emit_curve(std::size_t count, const geometry::EndCondition& end);
+  std::optional<std::size_t> block_off(const geometry::Curve& curve,
+                                       std::span<const Vec3> points) const;
+  void emit_segment(FittedCurve&& fitted, std::size_t count);
   void emit_lines(std::size_t count);
   void emit_broken(std::size_t worst);
   void advance(std::size_t count);

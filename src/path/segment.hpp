@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/vec.hpp"
-#include "gcode/block.hpp"
+#include "geometry/arc.hpp"
 #include "geometry/nurbs/arc_length.hpp"
 #include "geometry/nurbs/curve.hpp"
 
@@ -26,7 +26,7 @@ struct Line {
 
 /// Arc or helix, exact.
 struct Arc {
-  gcode::ArcGeometry geometry;
+  geometry::Arc geometry;
   double length = 0.0;  ///< arc length [mm]
 };
 
@@ -67,13 +67,19 @@ PathPoint point_at(const Line& line, double s) noexcept;
 /// Place at arc length s in [0, length] of an arc.
 PathPoint point_at(const Arc& arc, double s) noexcept;
 
-/// Fraction of the sweep at arc length s in [0, length] of an arc.
-double fraction_at(const Arc& arc, double s) noexcept;
-
 /// Place at which a curve has these derivatives with respect to its parameter.
 PathPoint point_from(const geometry::Derivatives& at) noexcept;
 
 /// Measures an arc.
-Arc make_arc(const gcode::ArcGeometry& geometry) noexcept;
+Arc make_arc(const geometry::Arc& geometry) noexcept;
+
+/// Part of an arc between two of its arc lengths, exact.
+Arc part_of(const Arc& arc, double from, double to) noexcept;
+
+/// Fills arc length and curvature of a curve that was just fitted.
+void measure(FittedCurve& fitted);
+
+/// Segment of a measured curve: geometry, length and both ends.
+Segment make_curve_segment(FittedCurve&& fitted);
 
 }  // namespace twin::path

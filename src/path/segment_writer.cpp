@@ -4,14 +4,15 @@
 #include <utility>
 
 #include "geometry/smoothing/piecewise.hpp"
-#include "path/curve_segment.hpp"
 
 namespace twin::path {
 namespace {
 
-constexpr std::size_t kMostSpans = 32;  // of a curve
-constexpr double kSame = 1e-4;          // block ends this near to a segment's end are at it [mm]
-constexpr double kStraight = 1e-6;      // turn that is none [rad]
+/// Most spans of a curve. Longer curves are fewer segments, but a segment leaves for the planner as
+/// a whole, so twice as many spans double what waits.
+constexpr std::size_t kMostSpans = 32;
+constexpr double kSame = 1e-4;      // block ends this near to a segment's end are at it [mm]
+constexpr double kStraight = 1e-6;  // turn that is none [rad]
 
 }  // namespace
 
@@ -65,10 +66,11 @@ void SegmentWriter::flush() {
   Segment segment = make_curve_segment(std::move(fitted));
   segment.deviation = deviation_;
   const auto& curve = std::get<FittedCurve>(segment.geometry);
-  put_marks(segment, end, [&](double s) { return curve.arc_length.s_at(curve.curve, s - begin); });
+  mark_blocks(segment, end,
+              [&](double s) { return curve.arc_length.s_at(curve.curve, s - begin); });
   pieces_.clear();
   deviation_ = 0.0;
-  put(std::move(segment));
+  emit(std::move(segment));
 }
 
 void SegmentWriter::set_demands(Segment& segment) const {
@@ -81,7 +83,7 @@ void SegmentWriter::set_demands(Segment& segment) const {
 
 /// Marks of the blocks that end on the segment, and of the one that goes on.
 template <class PlaceOf>
-void SegmentWriter::put_marks(Segment& segment, double end, const PlaceOf& place_of) {
+void SegmentWriter::mark_blocks(Segment& segment, double end, const PlaceOf& place_of) {
   set_demands(segment);
   double moved = tail_deviation_;
   tail_deviation_ = 0.0;
@@ -112,8 +114,8 @@ void SegmentWriter::exact(Segment&& segment, double begin, double end) {
   advance_to(begin + kSame);
   flush();
   first_ = at_;
-  put_marks(segment, end, [&](double s) { return s - begin; });
-  put(std::move(segment));
+  mark_blocks(segment, end, [&](double s) { return s - begin; });
+  emit(std::move(segment));
 }
 
 void SegmentWriter::line(const Line& line, double begin, double end) {
@@ -136,11 +138,11 @@ void SegmentWriter::arc(const Arc& arc, double begin, double end) {
 
 void SegmentWriter::whole(Segment&& segment) {
   flush();
-  put(std::move(segment));
+  emit(std::move(segment));
 }
 
 /// One segment is kept back until it is known whether the path turns at its end.
-void SegmentWriter::put(Segment&& segment) {
+void SegmentWriter::emit(Segment&& segment) {
   if (last_) {
     const bool turns = (last_->end.tangent - segment.begin.tangent).norm() > kStraight;
     last_->stops_at_end = last_->stops_at_end || (turns && segment.length > 0.0);

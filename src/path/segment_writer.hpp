@@ -28,12 +28,12 @@ struct BlockDemand {
   }
 };
 
-/// Makes segments of a path that comes as cubic pieces, lines and arcs over one parameter, the base
-/// path length; the blocks are known beforehand.
+/// Makes segments of a path that arrives as cubic pieces, lines and arcs. The base path length is
+/// the parameter of all of them. A block is added before the first piece that it is part of.
 ///
-/// Pieces that follow each other become curves of at most kMostSpans spans; a curve ends where the
-/// demands change. A block that is shared by several segments has a mark on each. Where the tangent
-/// turns from one segment to the next, the path comes to rest.
+/// Pieces that follow each other become curves of at most kMostSpans spans; a curve also ends where
+/// the demands of the blocks change. A block that lies on several segments has a mark on each of
+/// them. Where the tangent turns from one segment to the next, the path comes to rest.
 class SegmentWriter {
  public:
   explicit SegmentWriter(Builder::Sink sink) : sink_(std::move(sink)) {}
@@ -60,8 +60,8 @@ class SegmentWriter {
   void exact(Segment&& segment, double begin, double end);
   void set_demands(Segment& segment) const;
   template <class PlaceOf>
-  void put_marks(Segment& segment, double end, const PlaceOf& place_of);
-  void put(Segment&& segment);
+  void mark_blocks(Segment& segment, double end, const PlaceOf& place_of);
+  void emit(Segment&& segment);
 
   Builder::Sink sink_;
   geometry::SlidingVector<BlockDemand> blocks_;  // not yet over

@@ -5,10 +5,10 @@
 
 namespace twin::path {
 
-/// Corner angle from which on two blocks may be joined by a curve at a feedrate V:
-///   theta_critical = 2 acos(Kp / (1 - Kf) eps_max / V)                                  [WY09, Eq.
-///   1]
-/// Where V is so small that the argument exceeds 1, every corner passes: 0.
+/// Smallest corner angle at which a curve may join two blocks at a feedrate V [WY09, Eq. 1]:
+///   theta_critical = 2 acos(Kp / (1 - Kf) eps_max / V).
+/// Where V is so small that the argument exceeds 1, the angle is 0: a curve may join any two
+/// blocks.
 ///
 /// @param corner_error  eps_max [mm]
 /// @param feedrate      V > 0 [mm/s]
@@ -18,9 +18,9 @@ double critical_corner_angle(double feedrate, double corner_error, const Plannin
 /// Corner angle theta at p1 between the blocks p0 p1 and p1 p2; pi is straight on [rad].
 double corner_angle(const Vec3& p0, const Vec3& p1, const Vec3& p2);
 
-/// Larger of the two sagittas of the circle through three successive points over their chords: the
-/// bi-chord test's delta_1, delta_2 (Fig. 4 of the paper). Infinite where the path turns by 90 deg
-/// or more [mm].
+/// Larger of the two sagittas, over its two chords, of the circle through three successive points
+/// [mm]: delta_1 and delta_2 of the bi-chord test [WY09, Fig. 4]. Infinite where the path turns by
+/// 90 deg or more.
 double bi_chord_error(const Vec3& p0, const Vec3& p1, const Vec3& p2);
 
 }  // namespace twin::path

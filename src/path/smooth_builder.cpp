@@ -9,8 +9,11 @@
 namespace twin::path {
 namespace {
 
-constexpr double kSpeck = 0.01;         // of the tolerance, what leaving out lines may move
-constexpr double kLargestSpeck = 1e-3;  // [mm]
+/// Share of the tolerance by which the path may move where lines are left out. CAM systems leave
+/// lines of a micrometre behind whose directions are rounding only. A larger share leaves out more
+/// of them, and less of the tolerance remains for corners and runs.
+constexpr double kSpeck = 0.01;
+constexpr double kLargestSpeck = 1e-3;  // whatever the tolerance [mm]
 
 }  // namespace
 
@@ -52,8 +55,10 @@ BlockDemand SmoothBuilder::demand_of(const gcode::Block& block, double length,
   return demand;
 }
 
-/// Whether the latest line stays where it is and this block is left out, or takes its place.
-bool SmoothBuilder::leave_out(const gcode::Block& block, const BlockDemand& demand) {
+/// Leaves a block out if it or the latest line is a speck: the block ends where the line ends, or
+/// the line goes on to the end of the block.
+/// @returns whether the block was left out
+bool SmoothBuilder::merge_into_line(const gcode::Block& block, const BlockDemand& demand) {
   const double speck = std::min(0.5 * kSpeck * run_tolerance(block.tolerance), kLargestSpeck);
   if (!has_line_ || block.tolerance != line_.tolerance) {
     return false;
@@ -74,14 +79,14 @@ bool SmoothBuilder::leave_out(const gcode::Block& block, const BlockDemand& dema
   return true;
 }
 
-void SmoothBuilder::take_line(const gcode::Block& block, std::int64_t number) {
+void SmoothBuilder::add_line(const gcode::Block& block, std::int64_t number) {
   const double programmed = (block.end - block.start).norm();
   BlockDemand demand = demand_of(block, programmed, number);
-  if (leave_out(block, demand)) {
+  if (merge_into_line(block, demand)) {
     return;
   }
   const Vec3 start = has_line_ && block.tolerance == line_.tolerance ? line_.end : block.start;
-  end_line(start != line_.end);
+  end_line(start != line_.end ? Following::kOther : Following::kConnected);
   line_.start = start;
   line_.end = line_.last = block.end;
   line_.length = (line_.end - line_.start).norm();
@@ -94,23 +99,22 @@ void SmoothBuilder::take_line(const gcode::Block& block, std::int64_t number) {
   has_line_ = true;
 }
 
-/// The latest line is complete.
-/// @param is_last  no line follows that would begin at its own end: it goes on to where the program
-/// is
-void SmoothBuilder::end_line(bool is_last) {
+/// Emits the latest line. Where nothing follows that begins at its own end, it goes on to the end
+/// of the blocks that were left out behind it.
+void SmoothBuilder::end_line(Following following) {
   if (!has_line_) {
     return;
   }
-  if (is_last && line_.last != line_.end) {
+  if (following == Following::kOther && line_.last != line_.end) {
     line_.demand.deviation += (line_.last - line_.end).norm();
     line_.end = line_.last;
     line_.length = (line_.end - line_.start).norm();
   }
   has_line_ = false;
-  push_line(line_);
+  emit_line(line_);
 }
 
-void SmoothBuilder::push_line(LineBlock& line) {
+void SmoothBuilder::emit_line(LineBlock& line) {
   if (!continues_run(line)) {
     run_.finish();
     joiner_.set_tolerance(corner_tolerance(line.tolerance));
@@ -132,7 +136,7 @@ void SmoothBuilder::push_line(LineBlock& line) {
 }
 
 void SmoothBuilder::end_lines() {
-  end_line(true);
+  end_line(Following::kOther);
   run_.finish();
 }
 
@@ -153,20 +157,20 @@ void SmoothBuilder::push(const gcode::Block& block) {
   if (block.motion == gcode::Motion::kNurbs) {
     for (Segment& segment :
          make_nurbs_segments(block, number, settings_.max_segments, limits_, model_)) {
-      put_whole(std::move(segment));
+      emit_whole(std::move(segment));
     }
   } else if (block.motion == gcode::Motion::kDwell ||
              block.path_mode == gcode::PathMode::kExactStop) {
-    put_whole(make_segment(block, number, limits_, model_));
+    emit_whole(make_segment(block, number, limits_, model_));
   } else if (block.motion == gcode::Motion::kArc) {
     push_arc(block, number);
   } else {
-    take_line(block, number);
+    add_line(block, number);
   }
 }
 
 /// A segment that nothing is joined to.
-void SmoothBuilder::put_whole(Segment&& segment) {
+void SmoothBuilder::emit_whole(Segment&& segment) {
   end_lines();
   joiner_.finish();
   writer_.whole(std::move(segment));

@@ -17,17 +17,17 @@ namespace twin::path {
 /// Turns blocks into a path of continuous tangent and curvature within the tolerance, with a bound
 /// of its deviation on every segment.
 ///
-/// The tolerance of a block is that of its G64 P, else the corner error, in runs no more than the
-/// chord error. Two G01 blocks meet in a smooth vertex if neither is longer than a short block and
-/// the sagitta there (bi_chord_error) is no more than the tolerance; at what feedrate does not
-/// matter. Blocks between smooth vertices are a run (geometry::RunSpline); all other vertices are
-/// corners (Joiner).
+/// The tolerance of a block is that of its G64 P, otherwise the corner error of the machine file;
+/// in runs it is also at most the chord error. The vertex between two G01 blocks is smooth if
+/// neither block is longer than a short block and the sagitta there (bi_chord_error) is within the
+/// tolerance, at any feedrate. The blocks between smooth vertices are a run (geometry::RunSpline).
+/// All other vertices are corners (Joiner).
 ///
-/// Lines that stay within half of kSpeck of the tolerance of where they begin are left out: the
-/// blocks before and after meet there. What that moves is part of the bound.
+/// A line that ends within half of kSpeck of the tolerance from where it begins is left out, and
+/// the blocks before and after it meet there. The bound of the deviation includes what that moves.
 ///
-/// Blocks of G61 stay as they are and end at rest, and so does what meets them at an angle; so do
-/// NURBS of the program.
+/// A block of G61 stays as it is and ends at rest, and so does a block that meets it at an angle.
+/// The same holds for the NURBS of the program.
 class SmoothBuilder : public Builder {
  public:
   SmoothBuilder(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
@@ -49,17 +49,23 @@ class SmoothBuilder : public Builder {
     std::vector<BlockDemand> left_out;
   };
 
+  /// What comes after the latest line.
+  enum class Following : std::uint8_t {
+    kConnected,  ///< a line that begins at the end of the latest one
+    kOther,      ///< something that begins where the program is, behind what was left out
+  };
+
   double run_tolerance(double programmed) const;
   double corner_tolerance(double programmed) const;
   bool continues_run(const LineBlock& block) const;
   BlockDemand demand_of(const gcode::Block& block, double length, std::int64_t number) const;
-  void take_line(const gcode::Block& block, std::int64_t number);
-  bool leave_out(const gcode::Block& block, const BlockDemand& demand);
-  void end_line(bool is_last);
-  void push_line(LineBlock& line);
+  void add_line(const gcode::Block& block, std::int64_t number);
+  bool merge_into_line(const gcode::Block& block, const BlockDemand& demand);
+  void end_line(Following following);
+  void emit_line(LineBlock& line);
   void end_lines();
   void push_arc(const gcode::Block& block, std::int64_t number);
-  void put_whole(Segment&& segment);
+  void emit_whole(Segment&& segment);
 
   PathSettings settings_;
   PlanningModel model_;

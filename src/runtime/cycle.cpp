@@ -64,8 +64,10 @@ void Cycle::close_loops() noexcept {
   measured_ = position_of_counts();
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    outputs_.volts[i] = servos_[i].update(
-        {set_point_.position[k], set_point_.velocity[k], set_point_.acceleration[k]}, measured_[k]);
+    outputs_.volts[i] = servos_[i].update({.position = set_point_.position[k],
+                                           .velocity = set_point_.velocity[k],
+                                           .acceleration = set_point_.acceleration[k]},
+                                          measured_[k]);
   }
   outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
                                  set_point_.position.z()};
@@ -81,28 +83,27 @@ bool Cycle::is_safe() noexcept {
   const double feedrate = set_point_.velocity.norm();
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    views[i] = {interval_,
-                set_point_.position[k],
-                set_point_.velocity[k],
-                feedrate,
-                measured_[k],
-                inputs_.counts[i],
-                outputs_.volts[i],
-                servos_[i].is_saturated(),
-                inputs_.servo_ready[i],
-                inputs_.alarm[i],
-                inputs_.limit_positive[i],
-                inputs_.limit_negative[i]};
+    views[i] = {.interval = interval_,
+                .command = set_point_.position[k],
+                .velocity = set_point_.velocity[k],
+                .feedrate = feedrate,
+                .measured = measured_[k],
+                .counts = inputs_.counts[i],
+                .volts = outputs_.volts[i],
+                .is_saturated = servos_[i].is_saturated(),
+                .servo_ready = inputs_.servo_ready[i],
+                .alarm = inputs_.alarm[i],
+                .limit_positive = inputs_.limit_positive[i],
+                .limit_negative = inputs_.limit_negative[i]};
   }
   const auto found = monitors_->check(views);
   if (!found) {
     return true;
   }
-  const bool is_immediate = found->reaction == motion::Reaction::kImmediate;
-  if (!trip_ || is_immediate) {
+  if (!trip_ || is_immediate(*found)) {
     trip_ = stamped(*found);
   }
-  return !is_immediate;
+  return !is_immediate(*found);
 }
 
 bool Cycle::write() noexcept {

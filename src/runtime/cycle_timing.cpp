@@ -7,7 +7,7 @@
 namespace twin::runtime {
 namespace {
 
-results::TimeFigures figures_of(const results::LogHistogram& times) {
+results::TimeStats figures_of(const results::LogHistogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.max()};
 }
 
@@ -19,8 +19,8 @@ void CycleTiming::add(const results::Sample& sample) noexcept {
   total_.add(sample.total_time);
 }
 
-results::RealTimeFigures CycleTiming::figures() const {
-  results::RealTimeFigures figures;
+results::RealTimeStats CycleTiming::figures() const {
+  results::RealTimeStats figures;
   figures.wake_up = figures_of(wake_up_);
   figures.compute = figures_of(compute_);
   figures.total = figures_of(total_);

@@ -14,7 +14,7 @@ class CycleTiming {
   void add(const results::Sample& sample) noexcept;
 
   /// The figures that come from samples; late periods and notes are known to the motion thread.
-  results::RealTimeFigures figures() const;
+  results::RealTimeStats figures() const;
 
   /// Counts per bin of a sixteenth of an octave, "time_us,wake_up,compute,total", from the first
   /// bin that has any to the last; time_us is the bin's lower end.

@@ -1,9 +1,6 @@
 #include "runtime/feed_control.hpp"
-#include "runtime/nap.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 namespace twin::runtime {
 namespace {
@@ -14,33 +11,43 @@ constexpr double kWallClockMargin = 0.1;  // for planning and for braking [s]
 constexpr double kGuardPeriods = 4.0;     // at the largest feedrate, more than Motion's guard wants
 constexpr double kLargestMargin = 1.0;    // [s]
 
+/// Gives the schedule's changes that are due at a time to the panel. @returns the next change
+std::size_t apply_changes(const std::vector<OverrideChange>& schedule, std::size_t next, double t,
+                          OperatorPanel& panel) noexcept {
+  for (; next < schedule.size() && schedule[next].time <= t; ++next) {
+    panel.set_override(schedule[next].percent);
+  }
+  return next;
+}
+
 }  // namespace
 
-FeedControl::FeedControl(motion::Interpolator& interpolator, SegmentQueue& segments,
-                         ReplanLink& link, OperatorPanel& panel, const Options& options)
+double first_override(const std::vector<OverrideChange>& schedule, OperatorPanel& panel) noexcept {
+  apply_changes(schedule, 0, 0.0, panel);
+  const double percent = panel.wish().percent;
+  return percent > 0.0 ? percent : 100.0;
+}
+
+FeedControl::FeedControl(motion::Interpolator& interpolator, const PlanSupply& supply,
+                         Replanning& replanning, OperatorPanel& panel, const Options& options)
     : interpolator_(interpolator),
-      segments_(segments),
-      link_(link),
+      supply_(supply),
+      replanning_(replanning),
       panel_(panel),
       options_(options),
       margin_(least_margin()) {
   records_.reserve(kMostRecords);
-  take_schedule(0.0);
+  apply_schedule(0.0);
   wish_ = panel_.wish();
-  first_percent_ = percent_ = wish_.percent > 0.0 ? wish_.percent : 100.0;
+  percent_ = options_.first_percent;
   if (!wish_.holds() && percent_ != 100.0) {
-    record({0.0, percent_, 0.0});
+    record({.asked_at = 0.0, .percent = percent_, .from = 0.0});
   }
 }
 
-/// The schedule's changes that are due go to the panel.
-void FeedControl::take_schedule(double t) noexcept {
-  const auto& schedule = options_.schedule;
-  for (;
-       next_change_ < schedule.size() && schedule[next_change_].time <= t + 1e-6 * options_.period;
-       ++next_change_) {
-    panel_.set_override(schedule[next_change_].percent);
-  }
+/// Gives the schedule's changes that are due to the panel.
+void FeedControl::apply_schedule(double t) noexcept {
+  next_change_ = apply_changes(options_.schedule, next_change_, t + 1e-6 * options_.period, panel_);
 }
 
 /// What is wanted, and since when.
@@ -53,12 +60,12 @@ OperatorPanel::Wish FeedControl::wish_at(double t) noexcept {
   return wish;
 }
 
-void FeedControl::update(double t, const std::atomic<bool>& stop) {
-  take_schedule(t);
+void FeedControl::update(double t) noexcept {
+  apply_schedule(t);
   if (!interpolator_.has_started()) {
     return;
   }
-  link_.report(interpolator_.place().segment);
+  replanning_.report(interpolator_.place().segment);
   const OperatorPanel::Wish wish = wish_at(t);
   const bool holds = wish.holds();
   if (holds) {
@@ -68,11 +75,6 @@ void FeedControl::update(double t, const std::atomic<bool>& stop) {
   if (state_ == State::kFollowing && !holds) {
     ask(wish.percent);
   }
-  if (!options_.is_wall_clock) {
-    while (state_ == State::kAsked && link_.offer() == nullptr && !link_.is_broken() && !stop) {
-      nap();
-    }
-  }
   if (state_ == State::kAsked) {
     look_at_offer(holds);
     follow_up(t, holds);
@@ -81,14 +83,14 @@ void FeedControl::update(double t, const std::atomic<bool>& stop) {
 
 void FeedControl::brake_for_hold(double t) noexcept {
   if (!is_hold_) {
-    record({wished_at_, 0.0, t});
+    record({.asked_at = wished_at_, .percent = 0.0, .from = t});
   }
   is_hold_ = true;
   interpolator_.brake(options_.ramp);
 }
 
 /// Asks for another plan where one is needed.
-void FeedControl::ask(double percent) {
+void FeedControl::ask(double percent) noexcept {
   const bool is_at_rest = interpolator_.is_at_rest();
   if (!is_at_rest && (interpolator_.is_braking() || percent == percent_)) {
     return;
@@ -97,12 +99,10 @@ void FeedControl::ask(double percent) {
     interpolator_.brake(options_.ramp);
     return;
   }
-  if (!options_.is_wall_clock) {
-    while (!link_.is_idle() && !link_.is_broken()) {
-      nap();
-    }
-  }
-  if (link_.ask({interpolator_.place(), is_at_rest, margin_, percent})) {
+  if (replanning_.ask({.from = interpolator_.place(),
+                       .is_at_rest = is_at_rest,
+                       .margin = margin_,
+                       .percent = percent})) {
     state_ = State::kAsked;
     asked_percent_ = percent;
     asked_at_rest_ = is_at_rest;
@@ -128,7 +128,7 @@ bool FeedControl::accept(const ReplanOffer& offer) noexcept {
 }
 
 void FeedControl::look_at_offer(bool holds) noexcept {
-  const ReplanOffer* const offer = link_.offer();
+  const ReplanOffer* const offer = replanning_.offer();
   if (offer == nullptr) {
     return;
   }
@@ -138,7 +138,7 @@ void FeedControl::look_at_offer(bool holds) noexcept {
   if (still_suits && is_plan && accept(*offer)) {
     state_ = asked_at_rest_ ? State::kPriming : State::kArmed;
     margin_ = least_margin();
-    link_.answer(true);
+    replanning_.answer(Verdict::kAccepted);
     return;
   }
   if (is_plan && still_suits) {
@@ -149,7 +149,7 @@ void FeedControl::look_at_offer(bool holds) noexcept {
     interpolator_.finish();
   }
   rests_first_ = still_suits && offer->kind == ReplanOffer::Kind::kOnlyRest;
-  link_.answer(false);
+  replanning_.answer(Verdict::kRejected);
 }
 
 /// Whether the plan that was taken is the one that is followed by now.
@@ -157,14 +157,13 @@ void FeedControl::follow_up(double t, bool holds) noexcept {
   const bool is_at_rest = interpolator_.is_at_rest();
   if (state_ == State::kArmed && interpolator_.plan() == interpolator_.latest_plan()) {
     percent_ = asked_percent_;
-    record({wished_at_, percent_, t});
+    record({.asked_at = wished_at_, .percent = percent_, .from = t});
     state_ = State::kFollowing;
   } else if (state_ == State::kArmed && is_at_rest) {
     state_ = State::kFollowing;  // braked before the place of the switch
-  } else if (state_ == State::kPriming && !holds &&
-             (!options_.is_wall_clock || segments_.is_primed())) {
+  } else if (state_ == State::kPriming && !holds && supply_.is_primed()) {
     if (is_hold_ || percent_ != asked_percent_) {
-      record({wished_at_, asked_percent_, t});
+      record({.asked_at = wished_at_, .percent = asked_percent_, .from = t});
     }
     percent_ = asked_percent_;
     is_hold_ = false;
@@ -185,7 +184,11 @@ void FeedControl::show(const results::Sample& sample) noexcept {
   const MotionState state = !is_still  ? MotionState::kMoving
                             : is_hold_ ? MotionState::kHolding
                                        : MotionState::kStarved;
-  panel_.show({state, sample.t, percent_, sample.feedrate, sample.line});
+  panel_.show({.state = state,
+               .time = sample.t,
+               .percent = percent_,
+               .feedrate = sample.feedrate,
+               .line = sample.line});
 }
 
 void FeedControl::show_end() noexcept {

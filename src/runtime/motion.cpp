@@ -1,146 +1,133 @@
 #include "runtime/motion.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <thread>
-
-#include "runtime/nap.hpp"
-#include "runtime/off_at_the_end.hpp"
-#include "runtime/pacer.hpp"
 
 namespace twin::runtime {
 namespace {
 
+/// Leaves the machine with 0 V and servo off, also when a hook throws.
+class OffAtTheEnd {
+ public:
+  explicit OffAtTheEnd(Cycle& cycle) : cycle_(cycle) {}
+  OffAtTheEnd(const OffAtTheEnd&) = delete;
+  OffAtTheEnd& operator=(const OffAtTheEnd&) = delete;
+  ~OffAtTheEnd() { cycle_.switch_off(); }
+
+ private:
+  Cycle& cycle_;
+};
+
 /// State of one run of the motion thread.
 class Motion {
  public:
-  Motion(Cycle& cycle, motion::Interpolator& interpolator, SegmentQueue& segments,
-         SampleQueue& samples, const Limits& limits, const Pace& pace,
+  Motion(Cycle& cycle, motion::Interpolator& interpolator, const PlanSupply& supply,
+         SampleQueue& samples, Pace& pace, const MotionOptions& options,
          const std::atomic<bool>& stop)
       : cycle_(cycle),
         interpolator_(interpolator),
-        segments_(segments),
+        supply_(supply),
         samples_(samples),
-        ramp_{limits.acceleration, limits.jerk},
-        limits_(limits),
         pace_(pace),
-        stop_(stop),
-        pacer_(pace.clock != nullptr ? *pace.clock : monotonic_, pace.period, pace.realtime,
-               cycle.keeps_own_time() ? Schedule::kKept : Schedule::kShifted) {}
+        options_(options),
+        ramp_{.acceleration = options.limits.acceleration, .jerk = options.limits.jerk},
+        stop_(stop) {}
 
   MotionResult run();
 
  private:
   MotionEnd move();
-  bool hold();
-  std::optional<MotionEnd> settle();
+  std::optional<MotionEnd> rest_before_path();
   std::optional<MotionEnd> follow_path();
+  bool rest_after_path();
   bool begin_period();
   bool rest_one_period();
   bool exchange(results::Sample& sample);
   void guard_supply();
   void record(const results::Sample& sample);
   void pass_over_missed();
-  std::optional<MotionEnd> wait_on_path();
+  std::optional<MotionEnd> pass_idle();
   std::optional<MotionEnd> exchange_and_record();
-  void trip(motion::Trip trip);
-  void take_trip() {
+  void trip(const motion::Trip& trip);
+  void note_trip_of_cycle() {
     if (cycle_.trip()) {
       trip(*cycle_.trip());
     }
   }
-  MotionEnd failed() const;
+  long periods_in(double time) const { return std::lround(time / options_.period); }
+  bool is_switched_off() const { return trip_ && is_immediate(*trip_); }
+  MotionEnd failed() const {
+    return is_switched_off() ? MotionEnd::kTripped : MotionEnd::kMachineError;
+  }
   MotionEnd at_rest() const;
   bool has_to_stop() const { return trip_ || met_at_ || stop_.load(std::memory_order_relaxed); }
 
   Cycle& cycle_;
   motion::Interpolator& interpolator_;
-  SegmentQueue& segments_;
+  const PlanSupply& supply_;
   SampleQueue& samples_;
+  Pace& pace_;
+  const MotionOptions& options_;
   feedrate::RampLimits ramp_;
-  Limits limits_;
-  const Pace& pace_;
   const std::atomic<bool>& stop_;
-  MonotonicClock monotonic_;
-  Pacer pacer_;
-  WakeUp wake_up_{};
-  std::int64_t periods_ = 0;  // begun on the wall clock
   std::optional<motion::Trip> trip_;
   std::optional<Vec2> met_at_;
   bool is_recording_ = true;
   motion::Status status_ = motion::Status::kMoving;  // of the last turn
 };
 
-/// Wall clock: sleeps until the period begins and reads the machine at once.
+/// @returns false if the machine failed
 bool Motion::begin_period() {
-  wake_up_ = pacer_.wait();
-  if (pace_.before_period) {
-    pace_.before_period(periods_);
-  }
-  ++periods_;
-  if (const auto overrun = pacer_.overrun()) {
+  const hal::Status status = pace_.begin_period(cycle_);
+  if (const auto overrun = pace_.overrun()) {
     trip(cycle_.stamped(*overrun));
   }
-  return cycle_.read(wake_up_.interval) == hal::Status::kOk;
+  return status == hal::Status::kOk;
 }
 
-/// The first trip is what is reported, but for one that the machine is switched off by.
-void Motion::trip(motion::Trip trip) {
-  if (!trip_ || (trip_->reaction == motion::Reaction::kControlled &&
-                 trip.reaction == motion::Reaction::kImmediate)) {
+/// Keeps the first trip, which is what is reported, but for one that switches the machine off.
+void Motion::trip(const motion::Trip& trip) {
+  if (!trip_ || (!is_immediate(*trip_) && is_immediate(trip))) {
     trip_ = trip;
   }
 }
 
 /// One period at rest. @returns false if the machine failed or was switched off
 bool Motion::rest_one_period() {
-  const bool is_fine = pace_.is_wall_clock
-                           ? begin_period() && cycle_.respond_at_rest() == hal::Status::kOk
-                           : cycle_.hold() == hal::Status::kOk;
-  take_trip();
+  const bool is_fine = begin_period() && pace_.exchange_at_rest(cycle_) == hal::Status::kOk;
+  note_trip_of_cycle();
   return is_fine;
 }
 
-/// The period of a set point; on the wall clock it has begun already.
+/// Exchanges the set point of the period. @returns false if the machine failed or was switched off
 bool Motion::exchange(results::Sample& sample) {
-  const hal::Status status = pace_.is_wall_clock ? cycle_.respond(sample) : cycle_.exchange(sample);
-  take_trip();
-  if (pace_.is_wall_clock) {
-    sample.wake_up_latency = wake_up_.latency;
-    sample.total_time = pacer_.since_deadline();
-  }
-  if (pace_.until && !met_at_ && pace_.until(cycle_.inputs())) {
+  const hal::Status status = pace_.exchange(cycle_, sample);
+  note_trip_of_cycle();
+  if (options_.until && !met_at_ && options_.until(cycle_.inputs())) {
     met_at_ = cycle_.measured();
   }
   return status == hal::Status::kOk;
-}
-
-MotionEnd Motion::failed() const {
-  return trip_ && trip_->reaction == motion::Reaction::kImmediate ? MotionEnd::kTripped
-                                                                  : MotionEnd::kMachineError;
 }
 
 MotionEnd Motion::at_rest() const {
   return trip_ ? MotionEnd::kTripped : stop_.load() ? MotionEnd::kInterrupted : MotionEnd::kDone;
 }
 
-/// Lets the loop settle at rest before the path begins, and waits until the drives are ready.
-std::optional<MotionEnd> Motion::settle() {
+/// Lets the loops come to rest before the path begins, and waits until the drives are ready.
+std::optional<MotionEnd> Motion::rest_before_path() {
   if (!cycle_.has_machine()) {
     return std::nullopt;
   }
-  const auto in_periods = [&](double time) { return std::lround(time / pace_.period); };
-  const long least = in_periods(pace_.settle_time);
-  const long timeout = std::max(1L, in_periods(pace_.ready_timeout));
+  const long least = periods_in(options_.rest_before);
+  const long timeout = std::max(1L, periods_in(options_.ready_timeout));
   long last = least;
   bool is_ready = false;
   for (long i = 0; i < last || !is_ready; ++i) {
     if (!is_ready && i >= timeout) {
-      motion::Trip late{motion::Kind::kNotReady, cycle_.axis_not_ready()};
-      late.value = static_cast<double>(i) * pace_.period;
-      late.limit = pace_.ready_timeout;
-      trip(cycle_.stamped(late));
+      trip(cycle_.stamped({.kind = motion::Kind::kNotReady,
+                           .axis = cycle_.axis_not_ready(),
+                           .value = static_cast<double>(i) * options_.period,
+                           .limit = options_.ready_timeout}));
       return MotionEnd::kTripped;
     }
     if (!rest_one_period()) {
@@ -157,45 +144,37 @@ std::optional<MotionEnd> Motion::settle() {
   return std::nullopt;
 }
 
-/// Brakes when asked to stop; on the wall clock also while the known path still suffices for it.
+/// Brakes when asked to stop, and while the known path still suffices for it.
 void Motion::guard_supply() {
   if (has_to_stop()) {
     interpolator_.brake(ramp_);
     return;
   }
-  const std::int64_t plan = interpolator_.latest_plan();
-  if (!pace_.is_wall_clock || segments_.is_closed(plan)) {
+  const double reach = supply_.reach(interpolator_.latest_plan());
+  if (!std::isfinite(reach)) {
     return;
   }
-  const double known = segments_.reach(plan) - interpolator_.distance();
-  const double next_period = 2.0 * limits_.feedrate * pace_.period;
+  const double known = reach - interpolator_.distance();
+  const double next_period = 2.0 * options_.limits.feedrate * options_.period;
   if (interpolator_.braking_distance(ramp_) + next_period > known) {
     interpolator_.brake(ramp_);
   }
 }
 
-/// Off the wall clock waits for room; on it a full queue ends recording and motion.
+/// Hands a sample to the recorder. A full queue ends recording and motion where nothing waits.
 void Motion::record(const results::Sample& sample) {
   while (is_recording_ && !samples_.push(sample)) {
-    if (!pace_.is_wall_clock) {
-      nap();
-      continue;
+    if (!pace_.wait_for_room(samples_)) {
+      is_recording_ = false;
+      trip(cycle_.stamped({.kind = motion::Kind::kSamplesLost}));
     }
-    is_recording_ = false;
-    trip(cycle_.stamped({motion::Kind::kSamplesLost, motion::kNoAxis, 0.0, 0.0, 0.0, 0,
-                         motion::reaction_to(motion::Kind::kSamplesLost)}));
   }
 }
 
-/// A period without a set point of the path: at rest on the wall clock, where it has begun; a nap
-/// off it.
-std::optional<MotionEnd> Motion::wait_on_path() {
-  if (!pace_.is_wall_clock) {
-    nap();
-    return std::nullopt;
-  }
-  const bool is_fine = cycle_.respond_at_rest() == hal::Status::kOk;
-  take_trip();
+/// A period without a set point of the path.
+std::optional<MotionEnd> Motion::pass_idle() {
+  const bool is_fine = pace_.pass_idle(cycle_) == hal::Status::kOk;
+  note_trip_of_cycle();
   return is_fine ? std::nullopt : std::optional(failed());
 }
 
@@ -203,61 +182,60 @@ std::optional<MotionEnd> Motion::wait_on_path() {
 std::optional<MotionEnd> Motion::exchange_and_record() {
   results::Sample sample;
   const bool is_fine = exchange(sample);
-  if (is_fine || failed() == MotionEnd::kTripped) {
+  if (is_fine || is_switched_off()) {
     record(sample);
   }
-  if (pace_.feed != nullptr) {
-    pace_.feed->show(sample);
+  if (options_.feed != nullptr) {
+    options_.feed->show(sample);
   }
   return is_fine ? std::nullopt : std::optional(failed());
 }
 
 /// Passes over the set points of missed periods, on a machine whose time passes by itself.
 void Motion::pass_over_missed() {
-  const double pieces = wake_up_.missed + 1.0;
-  for (int i = 1; i <= wake_up_.missed; ++i) {
+  const int missed = pace_.wake_up().missed;
+  for (int i = 1; i <= missed; ++i) {
     guard_supply();
     if (cycle_.prepare() != motion::Status::kMoving) {
       return;
     }
     results::Sample sample;
-    cycle_.pass_over(sample, i / pieces);
+    cycle_.pass_over(sample, i / (missed + 1.0));
     record(sample);
   }
 }
 
 /// One turn of the loop; the end of the motion, or nothing.
 std::optional<MotionEnd> Motion::follow_path() {
-  if (pace_.is_wall_clock) {
-    if (!begin_period()) {
-      return MotionEnd::kMachineError;
-    }
-    pass_over_missed();
+  if (!begin_period()) {
+    return MotionEnd::kMachineError;
   }
-  if (pace_.is_wall_clock && !interpolator_.has_started() && !segments_.is_primed() &&
-      !has_to_stop()) {
-    return wait_on_path();
+  pass_over_missed();
+  const bool may_start = pace_.wait_for_segment();
+  if (!may_start && !interpolator_.has_started() && !has_to_stop()) {
+    return pass_idle();
   }
   guard_supply();
-  if (pace_.feed != nullptr && !has_to_stop() && status_ != motion::Status::kStarved) {
-    pace_.feed->update(cycle_.time(), stop_);
+  FeedControl* const feed = options_.feed;
+  if (feed != nullptr && !has_to_stop() && status_ != motion::Status::kStarved) {
+    feed->update(cycle_.time());
   }
   status_ = cycle_.prepare();
   if (status_ == motion::Status::kDone) {
     return at_rest();
   }
   const bool is_at_rest = status_ == motion::Status::kAtRest;
-  if (is_at_rest && (has_to_stop() || pace_.feed == nullptr)) {
+  if (is_at_rest && (has_to_stop() || feed == nullptr)) {
     return at_rest();
   }
-  if (status_ == motion::Status::kMoving || (is_at_rest && pace_.feed->is_hold())) {
+  if (status_ == motion::Status::kMoving || (is_at_rest && feed->is_hold())) {
     return exchange_and_record();
   }
-  return wait_on_path();
+  return pass_idle();
 }
 
 MotionEnd Motion::move() {
-  auto end = settle();
+  auto end = rest_before_path();
   while (!end) {
     end = follow_path();
   }
@@ -265,8 +243,8 @@ MotionEnd Motion::move() {
 }
 
 /// Lets the table come to where the path ended. @returns false if the machine failed meanwhile
-bool Motion::hold() {
-  auto periods = cycle_.has_machine() ? std::lround(pace_.hold_time / pace_.period) : 0;
+bool Motion::rest_after_path() {
+  long periods = cycle_.has_machine() ? periods_in(options_.rest_after) : 0;
   while (periods > 0 && rest_one_period()) {
     --periods;
   }
@@ -277,23 +255,23 @@ MotionResult Motion::run() {
   const OffAtTheEnd off(cycle_);
   MotionResult result;
   result.end = move();
-  if (result.end == MotionEnd::kDone && !hold()) {
+  if (result.end == MotionEnd::kDone && !rest_after_path()) {
     result.end = failed();
   }
   result.trip = trip_;
   result.met_at = met_at_;
   result.rest_at = cycle_.measured();
-  result.late_periods = pacer_.late_periods();
-  result.worst_latency = pacer_.worst_latency();
+  result.late_periods = pace_.late_periods();
+  result.worst_latency = pace_.worst_latency();
   return result;
 }
 
 }  // namespace
 
-MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, SegmentQueue& segments,
-                        SampleQueue& samples, const Limits& limits, const Pace& pace,
+MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, const PlanSupply& supply,
+                        SampleQueue& samples, Pace& pace, const MotionOptions& options,
                         const std::atomic<bool>& stop) {
-  return Motion(cycle, interpolator, segments, samples, limits, pace, stop).run();
+  return Motion(cycle, interpolator, supply, samples, pace, options, stop).run();
 }
 
 }  // namespace twin::runtime

@@ -1,27 +1,26 @@
 #pragma once
 
 #include <atomic>
-#include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
 
 #include "core/limits.hpp"
-#include "core/realtime_settings.hpp"
 #include "core/vec.hpp"
-#include "hal/machine.hpp"
+#include "hal/signals.hpp"
 #include "motion/safety/trip.hpp"
-#include "results/trace/sample.hpp"
-#include "runtime/clock.hpp"
 #include "runtime/cycle.hpp"
 #include "runtime/feed_control.hpp"
-#include "runtime/hooks.hpp"
-#include "runtime/segment_queue.hpp"
+#include "runtime/pace.hpp"
+#include "runtime/replanning.hpp"
+#include "runtime/sample_queue.hpp"
 
 namespace twin::runtime {
 
-/// The bounded buffer of samples between motion thread and recorder.
-using SampleQueue = boost::lockfree::spsc_queue<results::Sample>;
+/// A condition that ends the motion, evaluated in the motion thread after every set point. As soon
+/// as it returns true the machine brakes on the path, and the motion ends as at the path's end.
+/// Real-time safe.
+using Until = std::function<bool(const hal::Inputs&)>;
 
 /// How a motion ended.
 enum class MotionEnd : std::uint8_t {
@@ -36,40 +35,36 @@ struct MotionResult {
   MotionEnd end = MotionEnd::kDone;
   std::optional<motion::Trip> trip;  ///< what ended it, with kTripped
   Vec2 rest_at = Vec2::Zero();       ///< measured at its end [mm]
-  std::optional<Vec2> met_at;        ///< measured, where Pace::until came true [mm]
+  std::optional<Vec2> met_at;        ///< measured, where MotionOptions::until came true [mm]
   std::int64_t late_periods = 0;     ///< wall clock only
   double worst_latency = 0.0;        ///< of a period's begin [s]; wall clock only
 };
 
-/// How the motion thread keeps time.
-struct Pace {
-  bool is_wall_clock =
-      false;  ///< one period of the cycle per period of the wall clock; else as fast as it goes
-  double period = 0.001;        ///< [s]
-  double settle_time = 0.3;     ///< held at rest before the first set point, with a machine [s]
-  double hold_time = 0.0;       ///< held at rest after the path's end, not recorded [s]
+/// What a motion is told besides its path.
+struct MotionOptions {
+  double period = 0.001;        ///< interpolation period T [s]
+  double rest_before = 0.3;     ///< time at rest before the first set point, with a machine [s]
+  double rest_after = 0.0;      ///< time at rest after the path's end, not recorded [s]
   double ready_timeout = 3.0;   ///< within which the drives must be ready [s]
-  RealtimeSettings realtime;    ///< when a period is too late
-  Clock* clock = nullptr;       ///< null: CLOCK_MONOTONIC
+  Limits limits;                ///< for braking
   FeedControl* feed = nullptr;  ///< override and hold; null: a path that was braked ends there
-  std::function<void(std::int64_t)> before_period;  ///< see Hooks
-  Until until;                                      ///< ends the motion early
+  Until until{};                ///< ends the motion early
 };
 
 /// Runs cycles from rest to rest; the body of the motion thread. At its end the machine is off, 0 V
 /// and servo off, whatever the reason.
 ///
-/// The path begins after settle_time at rest, and not before both drives are ready.
+/// The path begins after rest_before, and not before both drives are ready.
 ///
-/// Off the wall clock it waits for segments and for room in the sample queue, so the result does
-/// not depend on threads' timing. On the wall clock it waits for nothing: a planner that falls
-/// behind makes it brake on the path before the known part ends, and go on by another plan when the
-/// buffer has filled again. A feed hold is a part of the motion: its periods are recorded. Late
-/// periods and a full sample queue make it brake on the path and end.
+/// In lockstep the motion waits for segments and for room in the sample queue, so the result does
+/// not depend on the timing of threads. On the wall clock it waits for nothing. A planner that
+/// falls behind makes it brake on the path before the known part ends, and it goes on by another
+/// plan when the buffer has filled again. A feed hold is a part of the motion, and its periods are
+/// recorded. Late periods and a full sample queue make it brake on the path and end.
 ///
 /// @param stop  set from outside (Ctrl-C): brake on the path and end
-MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, SegmentQueue& segments,
-                        SampleQueue& samples, const Limits& limits, const Pace& pace,
+MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, const PlanSupply& supply,
+                        SampleQueue& samples, Pace& pace, const MotionOptions& options,
                         const std::atomic<bool>& stop);
 
 }  // namespace twin::runtime

@@ -5,7 +5,8 @@
 
 namespace twin::runtime {
 
-/// A short wait for another thread.
-inline void nap() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
+/// A short sleep of a thread that looks for news of the motion thread, on the wall clock: there the
+/// motion thread must not spend time on waking others.
+inline void nap() { std::this_thread::sleep_for(std::chrono::microseconds(50)); }
 
 }  // namespace twin::runtime

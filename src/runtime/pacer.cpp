@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/monotonic.hpp"
+
 namespace twin::runtime {
 namespace {
 
@@ -10,6 +12,10 @@ constexpr double kSPerNs = 1e-9;
 constexpr std::int64_t kMostMissed = 1'000'000;
 
 }  // namespace
+
+std::int64_t MonotonicClock::now() noexcept { return monotonic_ns(); }
+
+void MonotonicClock::sleep_until(std::int64_t t) noexcept { sleep_until_monotonic(t); }
 
 Pacer::Pacer(Clock& clock, double period, const RealtimeSettings& settings,
              Schedule schedule) noexcept
@@ -52,20 +58,15 @@ double Pacer::since_deadline() const noexcept {
 }
 
 std::optional<motion::Trip> Pacer::overrun() const noexcept {
-  motion::Trip trip;
   if (latency_ >= max_stall_) {
-    trip.kind = motion::Kind::kStall;
-    trip.value = latency_;
-    trip.limit = max_stall_;
-  } else if (late_in_a_row_ >= max_in_a_row_) {
-    trip.kind = motion::Kind::kLatePeriods;
-    trip.value = late_in_a_row_;
-    trip.limit = max_in_a_row_;
-  } else {
-    return std::nullopt;
+    return motion::Trip{.kind = motion::Kind::kStall, .value = latency_, .limit = max_stall_};
   }
-  trip.reaction = motion::reaction_to(trip.kind);
-  return trip;
+  if (late_in_a_row_ >= max_in_a_row_) {
+    return motion::Trip{.kind = motion::Kind::kLatePeriods,
+                        .value = static_cast<double>(late_in_a_row_),
+                        .limit = static_cast<double>(max_in_a_row_)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace twin::runtime

@@ -5,9 +5,29 @@
 
 #include "core/realtime_settings.hpp"
 #include "motion/safety/trip.hpp"
-#include "runtime/clock.hpp"
 
 namespace twin::runtime {
+
+/// Time on which periods are paced; tests have one of their own.
+class Clock {
+ public:
+  Clock() = default;
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+  virtual ~Clock() = default;
+
+  /// [ns], never falls. Real-time safe.
+  virtual std::int64_t now() noexcept = 0;
+  /// Returns at that instant or later; at once when it has passed. Real-time safe. @param t [ns]
+  virtual void sleep_until(std::int64_t t) noexcept = 0;
+};
+
+/// CLOCK_MONOTONIC, with absolute sleeps.
+class MonotonicClock final : public Clock {
+ public:
+  std::int64_t now() noexcept override;
+  void sleep_until(std::int64_t t) noexcept override;
+};
 
 /// How a period began.
 struct WakeUp {
@@ -24,8 +44,8 @@ enum class Schedule : std::uint8_t {
 
 /// Wakes up at the multiples of a period.
 ///
-/// A wake-up at or past the next deadline is a late period. It is never made up for by a burst of
-/// short periods: the schedule is shifted, or the periods in between are missed.
+/// A wake-up at or past the next deadline is a late period. A burst of short periods never makes up
+/// for it: the schedule is shifted, or the periods in between are missed.
 class Pacer {
  public:
   /// @param clock   outlives the pacer; the first deadline is one period after now

@@ -4,15 +4,16 @@
 
 namespace twin::runtime {
 
-PlanVersion::PlanVersion(const config::MachineFile& machine, const PlanStart& start, bool remembers)
+PlanVersion::PlanVersion(const config::MachineFile& machine, const PlanStart& start,
+                         Remembers remembers)
     : start_(start),
       remembers_(remembers),
       look_ahead_(
           machine.limits, machine.planning, machine.path, machine.period,
-          [this](feedrate::PlannedSegment&& planned) { take(std::move(planned)); },
+          [this](feedrate::PlannedSegment&& planned) { append(std::move(planned)); },
           {start.s, start.v}, start.percent / 100.0) {}
 
-void PlanVersion::take(feedrate::PlannedSegment&& planned) {
+void PlanVersion::append(feedrate::PlannedSegment&& planned) {
   planned.index += start_.lead_in;
   planned.plan = start_.number;
   if (planned.index < start_.segment) {
@@ -21,8 +22,9 @@ void PlanVersion::take(feedrate::PlannedSegment&& planned) {
   for (const feedrate::Phase& phase : planned.phases) {
     time_ += phase.duration;
   }
-  if (remembers_) {
-    phases_.push_back({planned.index, planned.segment.length, planned.phases});
+  if (remembers_ == Remembers::kPhases) {
+    phases_.push_back(
+        {.index = planned.index, .length = planned.segment.length, .phases = planned.phases});
   }
   ready_.push_back(std::move(planned));
 }

@@ -20,11 +20,16 @@ struct PlanStart {
   double percent = 100.0;    ///< of the programmed feedrates [%]
 };
 
+/// What a plan keeps of the segments that have left it.
+enum class Remembers : std::uint8_t {
+  kNothing,
+  kPhases,  ///< their phases, so that another plan may take over
+};
+
 /// One plan of the rest of the path: a look-ahead of its own, and what it has planned.
 class PlanVersion {
  public:
-  /// @param remembers  whether phases are kept, so that another plan may take over
-  PlanVersion(const config::MachineFile& machine, const PlanStart& start, bool remembers);
+  PlanVersion(const config::MachineFile& machine, const PlanStart& start, Remembers remembers);
   PlanVersion(const PlanVersion&) = delete;
   PlanVersion& operator=(const PlanVersion&) = delete;
   ~PlanVersion() = default;
@@ -35,17 +40,17 @@ class PlanVersion {
   void drop_before(std::int64_t segment);
 
   std::int64_t number() const noexcept { return start_.number; }
-  /// Planned and not handed on yet.
+  /// Segments that are planned and wait to be followed.
   std::deque<feedrate::PlannedSegment>& ready() noexcept { return ready_; }
   const std::deque<SegmentPhases>& phases() const noexcept { return phases_; }
   std::int64_t fallbacks() const noexcept { return look_ahead_.fallbacks(); }
   double time() const noexcept { return time_; }
 
  private:
-  void take(feedrate::PlannedSegment&& planned);
+  void append(feedrate::PlannedSegment&& planned);
 
   PlanStart start_;
-  bool remembers_;
+  Remembers remembers_;
   double time_ = 0.0;  // of what has been planned [s]
   std::deque<feedrate::PlannedSegment> ready_;
   std::deque<SegmentPhases> phases_;

@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "feedrate/look_ahead.hpp"
-#include "path/builder.hpp"
+#include "feedrate/planner.hpp"
 
 namespace twin::runtime {
-
 namespace {
 
 /// Non-empty spans of a curve.
@@ -45,8 +44,10 @@ void count(const path::Segment& segment, double short_block_length, PlanFigures&
   }
 }
 
-Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
-                                   const std::function<bool(feedrate::PlannedSegment&&)>& sink) {
+Expected<PlanFigures> plan_program(
+    gcode::Reader& reader, const config::MachineFile& machine,
+    const std::function<bool(feedrate::PlannedSegment&&)>& sink,
+    const std::function<Expected<void>(const gcode::Block&)>& inspect) {
   PlanFigures figures;
   bool goes_on = true;
   feedrate::LookAhead look_ahead(machine.limits, machine.planning, machine.path, machine.period,
@@ -56,21 +57,22 @@ Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineF
                                    }
                                    goes_on = goes_on && sink(std::move(planned));
                                  });
-  const auto builder = path::make_builder(
-      machine.path, machine.planning, machine.limits, [&](path::Segment&& segment) {
-        count(segment, machine.path.short_block_length, figures);
-        look_ahead.push(std::move(segment));
-      });
+  const auto planner =
+      feedrate::make_planner(machine.limits, machine.planning, machine.path, machine.period);
+  const auto builder = planner->make_builder([&](path::Segment&& segment) {
+    count(segment, machine.path.short_block_length, figures);
+    look_ahead.push(std::move(segment));
+  });
   while (goes_on) {
-    auto block = reader.next();
+    TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
     if (!block) {
-      return tl::unexpected(block.error());
-    }
-    if (!block->has_value()) {
       break;
     }
-    figures.blocks += (*block)->motion == gcode::Motion::kDwell ? 0 : 1;
-    builder->push(**block);
+    if (inspect) {
+      TWIN_CHECK(inspect(*block));
+    }
+    figures.blocks += block->motion == gcode::Motion::kDwell ? 0 : 1;
+    builder->push(*block);
   }
   if (goes_on) {
     builder->finish();

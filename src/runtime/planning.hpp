@@ -34,13 +34,16 @@ void count(const path::Segment& segment, double short_block_length, PlanFigures&
 
 /// The whole planning chain, text to planned segments: Reader, path::Builder, LookAhead.
 ///
-/// @param sink  takes each planned segment; returns false to stop
-Expected<PlanFigures> plan_program(gcode::Reader& reader, const config::MachineFile& machine,
-                                   const std::function<bool(feedrate::PlannedSegment&&)>& sink);
+/// @param sink     takes each planned segment; returns false to stop
+/// @param inspect  if given, sees each block before it is planned; an error ends planning
+Expected<PlanFigures> plan_program(
+    gcode::Reader& reader, const config::MachineFile& machine,
+    const std::function<bool(feedrate::PlannedSegment&&)>& sink,
+    const std::function<Expected<void>(const gcode::Block&)>& inspect = {});
 
 /// The figures of a plan where the summary has them.
 ///
-/// @param is_certified  the deviation is a certified one, twin::is_certified()
+/// @param is_certified  the deviation is a certified one: planning.planner
 void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified);
 
 }  // namespace twin::runtime

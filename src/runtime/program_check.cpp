@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "gcode/programmed_curve.hpp"
 #include "results/metrics/block_distance.hpp"
@@ -53,7 +54,7 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   if (block.motion != gcode::Motion::kArc) {
     return;
   }
-  const gcode::ArcGeometry& arc = block.arc;
+  const geometry::Arc& arc = block.arc;
   for (int axis = 0; axis < 3; ++axis) {
     const double first = std::atan2(arc.e2[axis], arc.e1[axis]);
     for (int half_turn = -1; half_turn <= 3; ++half_turn) {
@@ -65,55 +66,72 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   }
 }
 
-Expected<void> check_travel(const gcode::Block& block, const Vec3& low, const Vec3& high,
-                            const Limits& limits, const std::string& file) {
+}  // namespace
+
+TravelCheck::TravelCheck(std::string file, const Vec3& start, const Limits& limits)
+    : file_(std::move(file)), limits_(limits) {
+  figures_.box_min = figures_.box_max = start;
+}
+
+Expected<void> TravelCheck::add(const gcode::Block& block) {
+  const Vec3& low = figures_.box_min;
+  const Vec3& high = figures_.box_max;
+  include_block(block, figures_.box_min, figures_.box_max);
   for (int axis = 0; axis < 3; ++axis) {
-    const bool is_low = low[axis] < limits.travel_min[axis] - kRounding;
-    if (is_low || high[axis] > limits.travel_max[axis] + kRounding) {
-      const double limit = is_low ? limits.travel_min[axis] : limits.travel_max[axis];
+    const bool is_low = low[axis] < limits_.travel_min[axis] - kRounding;
+    if (is_low || high[axis] > limits_.travel_max[axis] + kRounding) {
+      const double limit = is_low ? limits_.travel_min[axis] : limits_.travel_max[axis];
       const double place = is_low ? low[axis] : high[axis];
       return tl::unexpected(
-          Error{ErrorCode::kProgram,
-                fmt::format(
+          Error{.code = ErrorCode::kProgram,
+                .message = fmt::format(
                     "axis {} would go to {:.4f} mm, its travel ends at {:g} mm; nothing was moved",
                     "XYZ"[axis], place, limit),
-                file, static_cast<int>(block.line), 0});
+                .file = file_,
+                .line = static_cast<int>(block.line)});
     }
+  }
+  if (block.motion != gcode::Motion::kDwell) {
+    ++figures_.blocks;
+    figures_.length += results::block_length(block, results::View::kSpace);
   }
   return {};
 }
 
-}  // namespace
-
-Expected<ProgramFigures> check_program(const std::filesystem::path& program,
+Expected<ProgramFigures> check_program(const ProgramSource& program,
                                        const gcode::ReaderOptions& options, const Limits& limits) {
-  auto reader = gcode::Reader::open(program.string(), options);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  ProgramFigures figures;
-  figures.box_min = figures.box_max = options.start;
+  TWIN_TRY(gcode::Reader reader, open_program(program, options));
+  TravelCheck check(program.file.string(), options.start, limits);
   for (;;) {
-    auto block = reader->next();
+    TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
     if (!block) {
-      return tl::unexpected(block.error());
-    }
-    if (!block->has_value()) {
       break;
     }
-    include_block(**block, figures.box_min, figures.box_max);
-    if (auto inside =
-            check_travel(**block, figures.box_min, figures.box_max, limits, program.string());
-        !inside) {
-      return tl::unexpected(inside.error());
-    }
-    if ((*block)->motion != gcode::Motion::kDwell) {
-      ++figures.blocks;
-      figures.length += results::block_length(**block, results::View::kSpace);
-    }
+    TWIN_CHECK(check.add(*block));
   }
-  figures.lines = reader->line();
+  ProgramFigures figures = check.figures();
+  figures.lines = reader.line();
   return figures;
+}
+
+Expected<Estimate> estimate_program(const ProgramSource& program,
+                                    const gcode::ReaderOptions& options,
+                                    const config::MachineFile& machine,
+                                    const std::atomic<bool>* stop) {
+  TWIN_TRY(gcode::Reader reader, open_program(program, options));
+  TravelCheck check(program.file.string(), options.start, machine.limits);
+  const auto goes_on = [stop] { return stop == nullptr || !stop->load(); };
+  TWIN_TRY(
+      const PlanFigures plan,
+      plan_program(
+          reader, machine, [&](const feedrate::PlannedSegment& /*planned*/) { return goes_on(); },
+          [&](const gcode::Block& block) { return check.add(block); }));
+  if (!goes_on()) {
+    return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
+  }
+  Estimate estimate{.program = check.figures(), .plan = plan};
+  estimate.program.lines = reader.line();
+  return estimate;
 }
 
 }  // namespace twin::runtime

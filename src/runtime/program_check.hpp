@@ -1,11 +1,15 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
-#include <filesystem>
+#include <string>
 
+#include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "gcode/reader.hpp"
+#include "runtime/planning.hpp"
+#include "runtime/program_source.hpp"
 
 namespace twin::runtime {
 
@@ -18,11 +22,42 @@ struct ProgramFigures {
   Vec3 box_max = Vec3::Zero();  ///< upper corner [mm]
 };
 
+/// Holds the blocks of a program against the machine's travel, one after the other.
+class TravelCheck {
+ public:
+  /// @param file   for messages
+  /// @param start  position before the first block [mm]
+  TravelCheck(std::string file, const Vec3& start, const Limits& limits);
+
+  /// @returns an error if the block leaves the travel: axis, place, limit, line
+  Expected<void> add(const gcode::Block& block);
+  /// Of the blocks so far; the lines of text are left to the caller.
+  const ProgramFigures& figures() const noexcept { return figures_; }
+
+ private:
+  std::string file_;
+  Limits limits_;
+  ProgramFigures figures_;
+};
+
 /// Reads a program to its end and holds it against the machine's travel.
 ///
-/// @returns the first error of the program, or the first block that leaves the travel (axis, place,
-/// limit, line)
-Expected<ProgramFigures> check_program(const std::filesystem::path& program,
+/// @returns the first error of the program, or the first block that leaves the travel
+Expected<ProgramFigures> check_program(const ProgramSource& program,
                                        const gcode::ReaderOptions& options, const Limits& limits);
+
+/// What is known of a program before it runs.
+struct Estimate {
+  ProgramFigures program;
+  PlanFigures plan;  ///< its time is the cycle time of a run, less than a period aside
+};
+
+/// Checks a program like check_program() and plans it in the same reading. Nothing moves.
+///
+/// @param stop  ends it with kInterrupted; may be null
+Expected<Estimate> estimate_program(const ProgramSource& program,
+                                    const gcode::ReaderOptions& options,
+                                    const config::MachineFile& machine,
+                                    const std::atomic<bool>* stop);
 
 }  // namespace twin::runtime

@@ -1,9 +1,10 @@
 #include "runtime/program_planner.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
+#include <iterator>
 #include <utility>
+
+#include "feedrate/planner.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -13,83 +14,54 @@ constexpr double kLevel = 1e-6;         // share of A_max that is no acceleratio
 constexpr int kTries = 20;              // places looked at for one request
 constexpr double kStride = 0.005;       // between them [s]
 
-void nap(int microseconds) { std::this_thread::sleep_for(std::chrono::microseconds(microseconds)); }
-
 }  // namespace
 
-ProgramPlanner::ProgramPlanner(gcode::Reader& reader, const config::MachineFile& machine,
-                               SegmentQueue& queue, ReplanLink* link, double percent)
-    : reader_(reader),
+ProgramPlanner::ProgramPlanner(BlockSource blocks, const config::MachineFile& machine,
+                               Replans replans, double percent)
+    : blocks_(std::move(blocks)),
       machine_(machine),
-      queue_(queue),
-      link_(link),
-      builder_(path::make_builder(machine.path, machine.planning, machine.limits,
-                                  [this](path::Segment&& segment) { take(std::move(segment)); })),
+      replans_(replans),
+      builder_(
+          feedrate::make_planner(machine.limits, machine.planning, machine.path, machine.period)
+              ->make_builder([this](path::Segment&& segment) { append(std::move(segment)); })),
       path_(kLeadInPeriods * machine.limits.feedrate * machine.period),
-      active_(
-          std::make_unique<PlanVersion>(machine, PlanStart{.percent = percent}, link != nullptr)) {}
+      active_(std::make_unique<PlanVersion>(
+          machine, PlanStart{.percent = percent},
+          replans == Replans::kOnRequest ? Remembers::kPhases : Remembers::kNothing)) {}
 
-Expected<PlanFigures> ProgramPlanner::run() {
-  while (!queue_.is_stopped()) {
-    if (link_ != nullptr) {
-      if (auto served = serve(); !served) {
-        return tl::unexpected(served.error());
-      }
-    }
-    if (!older_.empty() || !active_->ready().empty()) {
-      if (!hand_on()) {
-        nap(50);
-      }
-    } else if (!is_all_read_) {
-      if (auto read = read_on(); !read) {
-        return tl::unexpected(read.error());
-      }
-    } else {
-      queue_.close(active_->number());
-      if (link_ == nullptr) {
-        break;
-      }
-      nap(100);
-    }
+Expected<void> ProgramPlanner::plan_ahead(std::size_t segments) {
+  while (waiting() < segments && !is_all_read_) {
+    TWIN_CHECK(read_on());
   }
-  figures_.time += active_->time();
-  figures_.fallbacks += active_->fallbacks();
-  return figures_;
+  return {};
 }
 
-/// Hands the next segment on. @returns false if enough of them wait
-bool ProgramPlanner::hand_on() {
-  const bool is_older = !older_.empty();
-  std::deque<feedrate::PlannedSegment>& from = is_older ? older_ : active_->ready();
-  if (link_ != nullptr && from.front().index - link_->segment() > machine_.path.look_ahead) {
-    return false;
-  }
-  if (before_segment && !is_announced_) {
-    before_segment(handed_on_++);
-  }
-  is_announced_ = true;
-  double reach = 0.0;
-  if (link_ != nullptr) {
-    const double end = path_.end_of(from.front().index);
-    reach = is_older ? std::min(end, start_of_active_) : end;
-  }
-  if (!queue_.try_push(from.front(), active_->number(), reach)) {
-    return false;
-  }
-  is_announced_ = false;
+void ProgramPlanner::pop_front() {
+  std::deque<feedrate::PlannedSegment>& from = older_.empty() ? active_->ready() : older_;
   from.pop_front();
-  return true;
 }
 
-/// Takes one block of the program, or its end.
-Expected<void> ProgramPlanner::read_on() {
-  auto block = reader_.next();
-  if (!block) {
-    return tl::unexpected(block.error());
+double ProgramPlanner::reach_of_front() noexcept {
+  if (!replans()) {
+    return 0.0;
   }
-  if (block->has_value()) {
-    figures_.blocks += (*block)->motion == gcode::Motion::kDwell ? 0 : 1;
-    builder_->push(**block);
+  const double end = path_.end_of(front().index);
+  return older_.empty() ? end : std::min(end, start_of_active_);
+}
+
+PlanFigures ProgramPlanner::figures() const {
+  PlanFigures figures = figures_;
+  figures.time += active_->time();
+  figures.fallbacks += active_->fallbacks();
+  return figures;
+}
+
+/// Reads one block of the program, or its end.
+Expected<void> ProgramPlanner::read_on() {
+  TWIN_TRY(const std::optional<gcode::Block> block, blocks_());
+  if (block) {
+    figures_.blocks += block->motion == gcode::Motion::kDwell ? 0 : 1;
+    builder_->push(*block);
     return {};
   }
   is_all_read_ = true;
@@ -101,9 +73,10 @@ Expected<void> ProgramPlanner::read_on() {
   return {};
 }
 
-void ProgramPlanner::take(path::Segment&& segment) {
+/// Appends a segment to the path and to its plans.
+void ProgramPlanner::append(path::Segment&& segment) {
   count(segment, machine_.path.short_block_length, figures_);
-  if (link_ != nullptr) {
+  if (replans()) {
     path_.add(segment);
   }
   if (candidate_) {
@@ -115,9 +88,7 @@ void ProgramPlanner::take(path::Segment&& segment) {
 /// Whether the path has a segment of this number; reads on until that is known.
 Expected<bool> ProgramPlanner::has_segment(std::int64_t index) {
   while (path_.end() <= index && !is_all_read_) {
-    if (auto read = read_on(); !read) {
-      return tl::unexpected(read.error());
-    }
+    TWIN_CHECK(read_on());
   }
   return index < path_.end();
 }
@@ -145,11 +116,8 @@ Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_at_rest(
     ++segment;
     s = 0.0;
   }
-  const auto is_there = has_segment(segment);
-  if (!is_there) {
-    return tl::unexpected(is_there.error());
-  }
-  return *is_there ? std::optional(start_at(segment, s, 0.0, request.percent)) : std::nullopt;
+  TWIN_TRY(const bool is_there, has_segment(segment));
+  return is_there ? std::optional(start_at(segment, s, 0.0, request.percent)) : std::nullopt;
 }
 
 /// The first place ahead where a plan may start; nothing where the path ends before.
@@ -161,11 +129,8 @@ Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_ahead(
         find_switch_place(active_->phases(), request.from, request.margin, tolerance);
     if (place) {
       const std::int64_t segment = place->segment + (place->is_at_end ? 1 : 0);
-      const auto is_there = has_segment(segment);
+      TWIN_TRY(const bool is_there, has_segment(segment));
       if (!is_there) {
-        return tl::unexpected(is_there.error());
-      }
-      if (!*is_there) {
         return std::nullopt;
       }
       Start start = start_at(segment, place->is_at_end ? 0.0 : place->s, place->v, request.percent);
@@ -176,15 +141,13 @@ Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_ahead(
     if (is_all_read_) {
       return std::nullopt;
     }
-    if (auto read = read_on(); !read) {
-      return tl::unexpected(read.error());
-    }
+    TWIN_CHECK(read_on());
   }
 }
 
 /// Plans the path from a start on. @returns whether that keeps every limit
 Expected<bool> ProgramPlanner::make_candidate(const Start& start) {
-  candidate_ = std::make_unique<PlanVersion>(machine_, start.plan, true);
+  candidate_ = std::make_unique<PlanVersion>(machine_, start.plan, Remembers::kPhases);
   for (std::int64_t i = start.plan.lead_in; i < path_.end(); ++i) {
     candidate_->push(path::Segment(path_[i]));
   }
@@ -192,66 +155,43 @@ Expected<bool> ProgramPlanner::make_candidate(const Start& start) {
     candidate_->finish();
   }
   while (candidate_->ready().empty() && !is_all_read_) {
-    if (auto read = read_on(); !read) {
-      return tl::unexpected(read.error());
-    }
+    TWIN_CHECK(read_on());
   }
   start_of_candidate_ = start.distance;
   return start.plan.v == 0.0 || candidate_->fallbacks() == 0;
 }
 
-Expected<ReplanOffer> ProgramPlanner::replan(ReplanRequest request) {
+Expected<ReplanOffer> ProgramPlanner::offer(ReplanRequest request) {
   for (int i = 0; i < kTries; ++i) {
-    const auto start = request.is_at_rest ? start_at_rest(request) : start_ahead(request);
+    TWIN_TRY(const std::optional<Start> start,
+             request.is_at_rest ? start_at_rest(request) : start_ahead(request));
     if (!start) {
-      return tl::unexpected(start.error());
+      return ReplanOffer{.kind = ReplanOffer::Kind::kPathEnd, .at = {}};
     }
-    if (!*start) {
-      return ReplanOffer{ReplanOffer::Kind::kPathEnd, {}, 0.0};
+    TWIN_TRY(const bool is_within_limits, make_candidate(*start));
+    if (is_within_limits) {
+      return ReplanOffer{
+          .kind = ReplanOffer::Kind::kPlan, .at = start->at, .distance = start->distance};
     }
-    const auto is_made = make_candidate(**start);
-    if (!is_made) {
-      return tl::unexpected(is_made.error());
-    }
-    if (*is_made) {
-      return ReplanOffer{ReplanOffer::Kind::kPlan, (*start)->at, (*start)->distance};
-    }
-    request.margin = (*start)->after + kStride;
+    request.margin = start->after + kStride;
   }
-  return ReplanOffer{ReplanOffer::Kind::kOnlyRest, {}, 0.0};
+  return ReplanOffer{.kind = ReplanOffer::Kind::kOnlyRest, .at = {}};
 }
 
-/// Answers the motion thread, if it has asked.
-Expected<void> ProgramPlanner::serve() {
-  path_.drop_before(link_->segment());
-  active_->drop_before(link_->segment());
-  const ReplanRequest* request = link_->request();
-  if (request == nullptr) {
-    return {};
-  }
-  const bool is_at_rest = request->is_at_rest;
-  const auto offer = replan(*request);
-  if (!offer) {
-    return tl::unexpected(offer.error());
-  }
-  if (offer->kind == ReplanOffer::Kind::kPlan) {
-    queue_.set_reach(offer->at.plan,
-                     std::min(queue_.reach(active_->number()), start_of_candidate_));
-  }
-  link_->offer(*offer);
-  std::optional<bool> verdict;
-  while (!(verdict = link_->verdict()) && !queue_.is_stopped()) {
-    nap(20);
-  }
-  if (verdict == true && offer->kind == ReplanOffer::Kind::kPlan) {
-    put_into_force(offer->at, is_at_rest);
+void ProgramPlanner::drop_before(std::int64_t segment) {
+  path_.drop_before(segment);
+  active_->drop_before(segment);
+}
+
+void ProgramPlanner::conclude(const ReplanOffer& offer, const ReplanRequest& request,
+                              Verdict verdict) {
+  if (verdict == Verdict::kAccepted && offer.kind == ReplanOffer::Kind::kPlan) {
+    put_into_force(offer.at, request.is_at_rest);
   }
   candidate_.reset();
-  link_->close();
-  return {};
 }
 
-/// The candidate is the plan to hand on, after the rest of the present one up to the switch.
+/// Makes the candidate the plan in force, after the rest of the present one up to the switch.
 void ProgramPlanner::put_into_force(const motion::PlanSwitch& at, bool is_at_rest) {
   auto& ready = active_->ready();
   if (is_at_rest) {

@@ -2,24 +2,22 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "gcode/reader.hpp"
 #include "path/builder.hpp"
 #include "runtime/kept_path.hpp"
 #include "runtime/plan_version.hpp"
 #include "runtime/planning.hpp"
-#include "runtime/replan_link.hpp"
-#include "runtime/segment_queue.hpp"
+#include "runtime/replanning.hpp"
+#include "runtime/shared_blocks.hpp"
 
 namespace twin::runtime {
 
-/// The body of the planning thread: text to planned segments, and other plans of the rest of the
-/// path while it is followed.
+/// Plans a program from its text to planned segments, as far as it is asked to, and makes other
+/// plans of the rest of the path while it is followed.
 ///
 /// For another plan the path that was built already is planned again from a place where the present
 /// plan has no tangential acceleration, with the programmed feedrates scaled:
@@ -29,25 +27,51 @@ namespace twin::runtime {
 ///   other plan            x------------------
 ///
 /// Up to x the motion follows the present plan exactly, so the set points have no step in place,
-/// feedrate or acceleration there. The other plan is made in full first, offered, and handed on
-/// only when the motion has not passed x; else it is dropped and nothing has happened.
+/// feedrate or acceleration there. The other plan is made in full first and offered. It replaces
+/// the present one when it is accepted, that is when the motion has not passed x; a rejected one is
+/// dropped, and nothing has happened.
 ///
 /// What is offered depends on the program and on the request alone, never on how far planning is.
 class ProgramPlanner {
  public:
-  /// @param link     null: there will be no other plan
+  /// Whether the path may be planned again while it is followed.
+  enum class Replans : std::uint8_t { kNever, kOnRequest };
+
   /// @param percent  feed override of the first plan, > 0 [%]
-  ProgramPlanner(gcode::Reader& reader, const config::MachineFile& machine, SegmentQueue& queue,
-                 ReplanLink* link, double percent = 100.0);
+  ProgramPlanner(BlockSource blocks, const config::MachineFile& machine, Replans replans,
+                 double percent = 100.0);
   ProgramPlanner(const ProgramPlanner&) = delete;
   ProgramPlanner& operator=(const ProgramPlanner&) = delete;
   ~ProgramPlanner() = default;
 
-  /// Called before a segment is handed on, with its number from 0.
-  std::function<void(std::int64_t)> before_segment;
+  /// Reads and plans on until so many segments wait, or the whole path is planned.
+  Expected<void> plan_ahead(std::size_t segments);
 
-  /// Plans until the path is handed on; with a link until the motion is over.
-  Expected<PlanFigures> run();
+  /// Number of planned segments that wait to be followed.
+  std::size_t waiting() const noexcept { return older_.size() + active_->ready().size(); }
+  /// The first of them.
+  feedrate::PlannedSegment& front() noexcept {
+    return older_.empty() ? active_->ready().front() : older_.front();
+  }
+  void pop_front();
+  /// Distance from the path's start up to which the first one extends its plan [mm].
+  double reach_of_front() noexcept;
+  /// Whether the path is planned to its end.
+  bool is_all_planned() const noexcept { return is_all_read_; }
+  /// Number of the plan in force.
+  std::int64_t plan() const noexcept { return active_->number(); }
+
+  /// The motion has come to this segment: what lies behind it need not be kept.
+  void drop_before(std::int64_t segment);
+  /// Makes another plan.
+  Expected<ReplanOffer> offer(ReplanRequest request);
+  /// Distance from the path's start to where the plan offered begins [mm].
+  double start_of_offer() const noexcept { return start_of_candidate_; }
+  /// Puts the plan that was offered last in force, or drops it.
+  void conclude(const ReplanOffer& offer, const ReplanRequest& request, Verdict verdict);
+
+  /// What has been planned so far.
+  PlanFigures figures() const;
 
  private:
   struct Start {
@@ -57,11 +81,9 @@ class ProgramPlanner {
     double after = 0.0;     // time of motion until there [s]
   };
 
-  bool hand_on();
+  bool replans() const noexcept { return replans_ == Replans::kOnRequest; }
   Expected<void> read_on();
-  void take(path::Segment&& segment);
-  Expected<void> serve();
-  Expected<ReplanOffer> replan(ReplanRequest request);
+  void append(path::Segment&& segment);
   Expected<bool> has_segment(std::int64_t index);
   Start start_at(std::int64_t segment, double s, double v, double percent) const;
   Expected<std::optional<Start>> start_at_rest(const ReplanRequest& request);
@@ -69,10 +91,9 @@ class ProgramPlanner {
   Expected<bool> make_candidate(const Start& start);
   void put_into_force(const motion::PlanSwitch& at, bool is_at_rest);
 
-  gcode::Reader& reader_;
+  BlockSource blocks_;
   const config::MachineFile& machine_;
-  SegmentQueue& queue_;
-  ReplanLink* link_;
+  Replans replans_;
   std::unique_ptr<path::Builder> builder_;
   KeptPath path_;
   std::unique_ptr<PlanVersion> active_;
@@ -81,8 +102,6 @@ class ProgramPlanner {
   double start_of_active_ = 0.0;                // distance from the path's start [mm]
   double start_of_candidate_ = 0.0;             // the same
   bool is_all_read_ = false;
-  std::int64_t handed_on_ = 0;
-  bool is_announced_ = false;  // the next segment to hand on, to before_segment
   PlanFigures figures_;
 };
 

@@ -9,33 +9,35 @@
 
 namespace twin::runtime {
 
-Expected<Recorder> Recorder::create(const Options& options) {
-  auto reader = gcode::Reader::open(options.program.string(), options.reader);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  auto trace = results::CsvWriter::create(
-      options.directory, options.has_machine ? results::Layout::kRun : results::Layout::kPlan);
-  if (!trace) {
-    return tl::unexpected(trace.error());
-  }
-  auto limit = results::LimitWriter::create(options.directory / "plots");
-  if (!limit) {
-    return tl::unexpected(limit.error());
-  }
-  return Recorder(options, std::move(*reader), std::move(*trace), std::move(*limit));
+Expected<Recorder> Recorder::create(const Options& options, BlockSource blocks) {
+  Recorder recorder(options, std::move(blocks));
+  TWIN_CHECK(recorder.begin());
+  return recorder;
 }
 
-Recorder::Recorder(const Options& options, gcode::Reader&& reader, results::CsvWriter&& trace,
-                   results::LimitWriter&& limit)
+Recorder::Recorder(const Options& options, BlockSource blocks)
     : options_(options),
-      reader_(std::move(reader)),
-      trace_(std::move(trace)),
-      limit_(std::move(limit)),
+      blocks_(std::move(blocks)),
+      layout_(options.has_machine ? results::Layout::kRun : results::Layout::kPlan),
       in_space_(results::View::kSpace),
       along_z_(results::View::kAlongZ),
       fluctuation_(options.period),
       audit_(options.period, options.limits) {}
+
+/// Opens the files and begins the trace in every sink.
+Expected<void> Recorder::begin() {
+  std::vector<TraceSink*> sinks;
+  if (!options_.directory.empty()) {
+    csv_ = std::make_unique<results::CsvTrace>(options_.directory);
+    sinks.push_back(csv_.get());
+  }
+  sinks.insert(sinks.end(), options_.sinks.begin(), options_.sinks.end());
+  TWIN_CHECK(sinks_.begin(sinks, results::trace_header(layout_, options_.period)));
+  if (!options_.directory.empty()) {
+    TWIN_TRY(limit_, results::LimitWriter::create(options_.directory / "plots"));
+  }
+  return {};
+}
 
 /// Reads on until no further block can change what the trackers say of this block.
 Expected<void> Recorder::read_ahead(std::int64_t block) {
@@ -43,26 +45,21 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
     return in_space_.is_ready(block) && (!options_.has_machine || along_z_.is_ready(block));
   };
   while (!program_ended_ && !is_ready()) {
-    auto next = reader_.next();
+    TWIN_TRY(const std::optional<gcode::Block> next, blocks_());
     if (!next) {
-      return tl::unexpected(next.error());
-    }
-    if (!next->has_value()) {
       program_ended_ = true;
       break;
     }
-    in_space_.add(**next);
+    in_space_.add(*next);
     if (options_.has_machine) {
-      along_z_.add(**next);
+      along_z_.add(*next);
     }
   }
   return {};
 }
 
-Expected<void> Recorder::take(const results::Sample& sample) {
-  if (auto ready = read_ahead(sample.block); !ready) {
-    return ready;
-  }
+Expected<void> Recorder::record(const results::Sample& sample) {
+  TWIN_CHECK(read_ahead(sample.block));
   in_space_.follow(sample.block, sample.command);
   command_error_.add(in_space_.nearest(sample.command).distance);
   fluctuation_.add(sample.command, sample.feedrate);
@@ -86,15 +83,22 @@ Expected<void> Recorder::take(const results::Sample& sample) {
   }
   ++samples_;
   last_ = sample;
-  if (auto written = limit_.write(sample.t, sample.feedrate_limit); !written) {
-    return written;
+  results::append_row(sample, contour_error, layout_, rows_);
+  return limit_ ? limit_->write(sample.t, sample.feedrate_limit) : Expected<void>{};
+}
+
+Expected<void> Recorder::flush() {
+  if (rows_.empty()) {
+    return {};
   }
-  return trace_.write(sample, contour_error);
+  auto taken = sinks_.rows(rows_);
+  rows_.clear();
+  return taken;
 }
 
 void Recorder::summarise(results::Summary& summary) {
   const auto figures = [](const results::Running& error) {
-    return results::ErrorFigures{error.max(), error.rms()};
+    return results::ErrorStats{error.max(), error.rms()};
   };
   summary.command_contour_error = figures(command_error_);
   summary.feedrate_fluctuation = {fluctuation_.shares().max(), fluctuation_.shares().rms()};
@@ -102,7 +106,7 @@ void Recorder::summarise(results::Summary& summary) {
   if (!options_.has_machine) {
     return;
   }
-  results::MachineFigures run;
+  results::MachineResults run;
   run.machining_time = last_.t;
   run.contour_error = figures(contour_error_);
   run.table_contour_error = figures(table_error_);
@@ -115,24 +119,31 @@ void Recorder::summarise(results::Summary& summary) {
 }
 
 Expected<void> Recorder::commit() {
+  TWIN_CHECK(flush());
+  if (limit_) {
+    TWIN_CHECK(commit_timing());
+    TWIN_CHECK(limit_->commit());
+  }
+  return sinks_.commit();
+}
+
+/// Writes the histograms of a run on the wall clock, or removes those of an earlier one.
+Expected<void> Recorder::commit_timing() const {
   const auto timing = options_.directory / "plots" / results::kTimingName;
   if (options_.has_machine && options_.is_wall_clock) {
-    if (auto written = write_whole_file(timing, timing_.to_csv()); !written) {
-      return written;
-    }
-  } else {
-    std::error_code ignored;
-    std::filesystem::remove(timing, ignored);  // of an earlier run
+    return write_whole_file(timing, timing_.to_csv());
   }
-  if (auto done = limit_.commit(); !done) {
-    return done;
-  }
-  return trace_.commit();
+  std::error_code ignored;
+  std::filesystem::remove(timing, ignored);
+  return {};
 }
 
 void Recorder::abandon() noexcept {
-  limit_.abandon();
-  trace_.abandon();
+  static_cast<void>(flush());
+  if (limit_) {
+    limit_->abandon();
+  }
+  sinks_.abandon();
 }
 
 }  // namespace twin::runtime

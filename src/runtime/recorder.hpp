@@ -5,42 +5,48 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "gcode/reader.hpp"
 #include "results/metrics/contour_tracker.hpp"
 #include "results/metrics/feedrate_fluctuation.hpp"
 #include "results/metrics/limit_audit.hpp"
 #include "results/metrics/log_histogram.hpp"
 #include "results/metrics/running.hpp"
 #include "results/metrics/summary.hpp"
-#include "results/trace/csv_writer.hpp"
+#include "results/trace/columns.hpp"
+#include "results/trace/csv_trace.hpp"
 #include "results/trace/limit_writer.hpp"
 #include "runtime/cycle_timing.hpp"
+#include "runtime/shared_blocks.hpp"
+#include "runtime/trace_sinks.hpp"
 
 namespace twin::runtime {
 
-/// Turns the stream of samples into the trace and the figures of the summary, in bounded memory.
+/// Turns the stream of samples into the rows of the trace and the figures of the summary, in bounded
+/// memory.
 ///
-/// For the contour error it reads the program a second time by itself, as far ahead of the samples
-/// as it needs, so that its result does not depend on how far the planner happens to be.
+/// For the contour error it goes through the program's blocks by itself, as far ahead of the samples
+/// as it needs, so that its result does not depend on how far planning happens to be.
 class Recorder {
  public:
   struct Options {
-    std::filesystem::path directory;  ///< of the results; exists
-    std::filesystem::path program;
-    gcode::ReaderOptions reader;
+    std::filesystem::path directory;  ///< of the results, which exists; empty: no file is written
+    std::vector<TraceSink*> sinks;    ///< get the rows besides trace.csv
     Limits limits;
     double period = 0.001;       ///< [s]
     bool has_machine = true;     ///< else only set points are recorded
     bool is_wall_clock = false;  ///< samples have the wall clock's figures
   };
 
-  static Expected<Recorder> create(const Options& options);
+  /// @param blocks  of the program
+  static Expected<Recorder> create(const Options& options, BlockSource blocks);
 
-  /// Takes the next sample.
-  Expected<void> take(const results::Sample& sample);
+  /// Records the next sample.
+  Expected<void> record(const results::Sample& sample);
+  /// Hands the rows of the samples so far to the sinks.
+  Expected<void> flush();
 
   /// Puts the figures of the samples so far into a summary.
   void summarise(results::Summary& summary);
@@ -53,16 +59,21 @@ class Recorder {
   const results::Sample& last() const noexcept { return last_; }
 
  private:
-  Recorder(const Options& options, gcode::Reader&& reader, results::CsvWriter&& trace,
-           results::LimitWriter&& limit);
+  Recorder(const Options& options, BlockSource blocks);
+
+  Expected<void> begin();
+  Expected<void> commit_timing() const;
 
   Expected<void> read_ahead(std::int64_t block);
 
   Options options_;
-  gcode::Reader reader_;
+  BlockSource blocks_;
   bool program_ended_ = false;
-  results::CsvWriter trace_;
-  results::LimitWriter limit_;
+  results::Layout layout_;
+  std::unique_ptr<results::CsvTrace> csv_;
+  TraceSinks sinks_;
+  std::vector<double> rows_;  // not handed to the sinks yet (rows x columns)
+  std::optional<results::LimitWriter> limit_;
   results::ContourTracker in_space_;
   results::ContourTracker along_z_;
   results::FeedrateFluctuation fluctuation_;

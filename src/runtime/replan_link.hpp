@@ -4,65 +4,41 @@
 #include <cstdint>
 #include <optional>
 
-#include "motion/interpolator/interpolator.hpp"
+#include "runtime/replanning.hpp"
 
 namespace twin::runtime {
 
-/// What the motion thread asks the planning thread for: another plan of the rest of the path.
-struct ReplanRequest {
-  motion::PlanPlace from;   ///< where the motion is
-  bool is_at_rest = false;  ///< it starts there; else at a place ahead
-  double margin = 0.0;      ///< time of motion from there to that place, at least [s]
-  double percent = 100.0;   ///< feed override, > 0 [%]
-};
-
-/// What the planning thread answers.
-struct ReplanOffer {
-  enum class Kind : std::uint8_t {
-    kPlan,      ///< another plan, from this place on
-    kPathEnd,   ///< the path ends before another plan could start
-    kOnlyRest,  ///< no place ahead suits: brake first
-  };
-  Kind kind = Kind::kPlan;
-  motion::PlanSwitch at;  ///< at rest only its plan means anything
-  double distance = 0.0;  ///< of this place from the path's start [mm]
-};
-
-/// One request at a time from the motion thread to the planning thread, its answer, and whether it
-/// is taken. Lock-free; the motion thread never waits in here.
+/// Requests for other plans between the motion thread and the planning thread, on the wall clock.
+/// Lock-free: neither side waits in here.
 ///
-///   idle --ask--> asked --offer--> offered --accept, reject--> accepted, rejected --close--> idle
-///         motion         planning           motion                             planning
-class ReplanLink {
+///   idle --ask--> asked --offer--> offered --answer--> accepted or rejected --close--> idle
+///        motion         planning           motion                            planning
+class ReplanLink final : public Replanning {
  public:
   // Motion thread; real-time safe.
 
-  bool is_idle() const noexcept { return stage() == Stage::kIdle; }
-  /// When idle. @returns false, with nothing asked, otherwise
-  bool ask(const ReplanRequest& request) noexcept {
-    if (!is_idle()) {
+  bool ask(const ReplanRequest& request) noexcept override {
+    if (stage() != Stage::kIdle) {
       return false;
     }
     request_ = request;
     stage_.store(Stage::kAsked, std::memory_order_release);
     return true;
   }
-  /// The answer, once it is there.
-  const ReplanOffer* offer() const noexcept {
+  const ReplanOffer* offer() const noexcept override {
     return stage() == Stage::kOffered ? &offer_ : nullptr;
   }
-  /// Takes the answer, or does not.
-  void answer(bool is_accepted) noexcept {
-    stage_.store(is_accepted ? Stage::kAccepted : Stage::kRejected, std::memory_order_release);
+  void answer(Verdict verdict) noexcept override {
+    stage_.store(verdict == Verdict::kAccepted ? Stage::kAccepted : Stage::kRejected,
+                 std::memory_order_release);
   }
-  /// The motion has come to this segment.
-  void report(std::int64_t segment) noexcept { segment_.store(segment, std::memory_order_relaxed); }
-  /// Nobody will answer any more.
-  bool is_broken() const noexcept { return is_broken_.load(std::memory_order_acquire); }
+  void report(std::int64_t segment) noexcept override {
+    segment_.store(segment, std::memory_order_relaxed);
+  }
 
   // Planning thread.
 
-  /// What was asked for and not answered yet.
+  /// What was asked for and not answered yet; else null.
   const ReplanRequest* request() const noexcept {
     return stage() == Stage::kAsked ? &request_ : nullptr;
   }
@@ -70,16 +46,20 @@ class ReplanLink {
     offer_ = offer;
     stage_.store(Stage::kOffered, std::memory_order_release);
   }
-  /// Whether the offer was taken; nothing while the motion thread has not looked at it.
-  std::optional<bool> verdict() const noexcept {
-    const Stage now = stage();
-    return now == Stage::kAccepted || now == Stage::kRejected
-               ? std::optional(now == Stage::kAccepted)
-               : std::nullopt;
+  /// Nothing while the motion thread has not looked at the offer.
+  std::optional<Verdict> verdict() const noexcept {
+    switch (stage()) {
+      case Stage::kAccepted:
+        return Verdict::kAccepted;
+      case Stage::kRejected:
+        return Verdict::kRejected;
+      default:
+        return std::nullopt;
+    }
   }
   void close() noexcept { stage_.store(Stage::kIdle, std::memory_order_release); }
+  /// The segment that the motion has come to.
   std::int64_t segment() const noexcept { return segment_.load(std::memory_order_relaxed); }
-  void break_off() noexcept { is_broken_.store(true, std::memory_order_release); }
 
  private:
   enum class Stage : std::uint8_t { kIdle, kAsked, kOffered, kAccepted, kRejected };
@@ -89,7 +69,6 @@ class ReplanLink {
   ReplanRequest request_;
   ReplanOffer offer_;
   std::atomic<std::int64_t> segment_{0};
-  std::atomic<bool> is_broken_{false};
 };
 
 }  // namespace twin::runtime

@@ -1,24 +1,24 @@
 #include "runtime/run.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <chrono>
+#include <memory>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "config/settings.hpp"
+#include "core/atomic_file.hpp"
+#include "core/sha256.hpp"
+#include "core/version.hpp"
 #include "hal/active_machine.hpp"
-#include "motion/safety/trip.hpp"
-#include "runtime/cycle_time.hpp"
-#include "runtime/feed_control.hpp"
-#include "runtime/motion.hpp"
-#include "runtime/motion_end.hpp"
 #include "runtime/program_check.hpp"
-#include "runtime/program_planner.hpp"
 #include "runtime/realtime_thread.hpp"
 #include "runtime/recorder.hpp"
+#include "runtime/run_errors.hpp"
 #include "runtime/run_options.hpp"
-#include "runtime/thrown.hpp"
+#include "runtime/run_planning.hpp"
+#include "runtime/shared_blocks.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -26,91 +26,82 @@ namespace {
 constexpr std::size_t kSampleBuffer = 16384;
 constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
 
+/// What is known of a run before it starts.
+struct Outlook {
+  ProgramFigures program;
+  std::optional<double> planned_time;  // [s]
+};
+
+/// Whether the path may be planned again while it is followed.
+bool has_control(const RunRequest& request) {
+  return request.is_wall_clock || !request.overrides.empty() || request.panel != nullptr;
+}
+
+ProgramPlanner::Replans replans_of(const RunRequest& request) {
+  return has_control(request) ? ProgramPlanner::Replans::kOnRequest
+                              : ProgramPlanner::Replans::kNever;
+}
+
+std::unique_ptr<RunPlanning> make_planning(const RunRequest& request, ProgramPlanner& planner,
+                                           std::atomic<bool>& stop) {
+  if (request.is_wall_clock) {
+    return std::make_unique<WallClockPlanning>(request, planner, stop);
+  }
+  return std::make_unique<LockstepPlanning>(request, planner, stop);
+}
+
 /// One run: its threads and what they share.
 class Run {
  public:
-  /// @param planned_time  if it is known from planning beforehand [s]
-  Run(const RunRequest& request, const ProgramFigures& program, Recorder&& recorder,
-      std::optional<double> planned_time)
+  Run(const RunRequest& request, const Outlook& outlook, SharedBlocks& blocks, Recorder&& recorder)
       : request_(request),
-        program_(program),
+        outlook_(outlook),
         recorder_(std::move(recorder)),
-        has_control_(request.is_wall_clock || !request.overrides.empty() ||
-                     request.panel != nullptr),
-        segments_(static_cast<std::size_t>(request.machine.path.look_ahead), room_for_next_plan()),
-        samples_(kSampleBuffer),
-        interpolator_(segments_, request.machine.period, request.machine.interpolation),
+        panel_(request.panel != nullptr ? *request.panel : own_panel_),
+        first_percent_(first_override(request.overrides, panel_)),
+        planner_(blocks.first(), request.machine, replans_of(request), first_percent_),
+        planning_(make_planning(request, planner_, stop_)),
+        samples_(kSampleBuffer, request.is_wall_clock ? SampleQueue::Waiting::kPoll
+                                                      : SampleQueue::Waiting::kAwake),
+        interpolator_(planning_->supply(), request.machine.period, request.machine.interpolation),
         cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period,
                request.machine.safety, request.machine.limits.feedrate),
-        feed_(interpolator_, segments_, link_,
-              request.panel != nullptr ? *request.panel : own_panel_, feed_options(request)),
-        planned_time_(planned_time) {}
+        feed_(interpolator_, planning_->supply(), planning_->replanning(), panel_,
+              feed_options(request, first_percent_)) {}
 
   Expected<RunResult> execute();
 
  private:
-  std::size_t room_for_next_plan() const {
-    return has_control_ ? static_cast<std::size_t>(request_.machine.path.look_ahead) + 2 : 0;
-  }
-  void plan(gcode::Reader& reader);
-  void guarded_plan(gcode::Reader& reader) noexcept;
   void move();
   void guarded_move() noexcept;
-  void take(const results::Sample& sample);
+  void note(const Expected<void>& recorded);
+  bool record_turn();
   void record();
-  void run_threads(gcode::Reader& reader);
+  void run_threads();
   std::optional<Error> failure() const;
   void report_progress();
   results::Summary summarise(double wall_time);
 
   const RunRequest& request_;
-  const ProgramFigures& program_;
+  const Outlook& outlook_;
   Recorder recorder_;
-  bool has_control_;  // the path may be planned again while it is followed
-  SegmentQueue segments_;
+  OperatorPanel own_panel_;
+  OperatorPanel& panel_;
+  double first_percent_;  // override of the first plan [%]
+  std::atomic<bool> stop_{false};
+  ProgramPlanner planner_;
+  std::unique_ptr<RunPlanning> planning_;
   SampleQueue samples_;
   motion::Interpolator interpolator_;
   Cycle cycle_;
-  ReplanLink link_;
-  OperatorPanel own_panel_;
   FeedControl feed_;
-  std::optional<double> planned_time_;  // [s]
-  std::atomic<bool> stop_{false};
-  std::atomic<bool> has_ended_{false};
-  PlanFigures plan_figures_;         // written by the planning thread, read after its end
-  std::optional<Error> plan_error_;  // the same
   MotionResult motion_;              // written by the motion thread, read after its end
   std::optional<Error> move_error_;  // the same
   std::vector<std::string> notes_;   // the same
+  std::optional<Error> plan_error_;
   std::optional<Error> record_error_;
   int shown_percent_ = -1;
 };
-
-void Run::plan(gcode::Reader& reader) {
-  ProgramPlanner planner(reader, request_.machine, segments_, has_control_ ? &link_ : nullptr,
-                         feed_.first_percent());
-  planner.before_segment = request_.hooks.before_segment;
-  if (auto figures = planner.run()) {
-    plan_figures_ = *figures;
-  } else {
-    plan_error_ = figures.error();
-    stop_ = true;
-  }
-}
-
-/// Body of the planning thread: nothing escapes, and the motion thread is told the end.
-void Run::guarded_plan(gcode::Reader& reader) noexcept {
-  try {
-    plan(reader);
-  } catch (...) {
-    plan_error_ = thrown("planning");
-    stop_ = true;
-  }
-  if (plan_error_) {
-    segments_.close(SegmentQueue::kEveryPlan);
-  }
-  link_.break_off();
-}
 
 void Run::move() {
   std::optional<RealtimeThread> realtime;
@@ -118,10 +109,10 @@ void Run::move() {
     realtime.emplace(request_.machine.realtime);
     notes_ = realtime->notes();
   }
-  Pace pace = pace_of(request_);
-  pace.feed = has_control_ ? &feed_ : nullptr;
-  const Limits& limits = request_.machine.limits;
-  motion_ = run_motion(cycle_, interpolator_, segments_, samples_, limits, pace, stop_);
+  MotionOptions options = motion_options(request_);
+  options.feed = has_control(request_) ? &feed_ : nullptr;
+  const auto pace = planning_->make_pace();
+  motion_ = run_motion(cycle_, interpolator_, planning_->supply(), samples_, *pace, options, stop_);
 }
 
 /// Body of the motion thread: at its end the machine is off.
@@ -133,56 +124,58 @@ void Run::guarded_move() noexcept {
     motion_.end = MotionEnd::kMachineError;
     move_error_ = thrown("the motion thread");
   }
-  segments_.stop();
+  planning_->stop();
   feed_.show_end();
-  has_ended_.store(true, std::memory_order_release);
+  samples_.close();
 }
 
-/// Records a sample; after an error drops it, so that the machine can brake.
-void Run::take(const results::Sample& sample) {
-  if (record_error_) {
-    return;
-  }
-  if (auto taken = recorder_.take(sample); !taken) {
-    record_error_ = taken.error();
+/// After an error of the recorder the machine brakes.
+void Run::note(const Expected<void>& recorded) {
+  if (!recorded) {
+    record_error_ = recorded.error();
     stop_ = true;
   }
 }
 
-/// Drains the samples until the motion has ended. Nothing escapes: what throws brakes the machine.
-void Run::record() {
+/// Records the samples that wait, up to a number; after an error drops them, so that the machine can
+/// brake. @returns whether there were any
+bool Run::record_turn() {
   results::Sample sample;
-  for (;;) {
-    const bool has_ended = has_ended_.load(std::memory_order_acquire);
-    bool is_empty = true;
+  bool is_empty = true;
+  for (int i = 0; i < kSamplesATurn && samples_.pop(sample); ++i) {
+    is_empty = false;
+    if (!record_error_) {
+      note(recorder_.record(sample));
+    }
+  }
+  samples_.show_room();
+  if (!record_error_) {
+    note(recorder_.flush());
+  }
+  if (request_.stop != nullptr && request_.stop->load()) {
+    stop_ = true;
+  }
+  report_progress();
+  return !is_empty;
+}
+
+/// Records until the motion has ended. Nothing escapes: what throws brakes the machine.
+void Run::record() {
+  for (bool goes_on = true; goes_on;) {
     try {
-      for (int i = 0; i < kSamplesATurn && samples_.pop(sample); ++i) {
-        is_empty = false;
-        take(sample);
-      }
-      if (request_.stop != nullptr && request_.stop->load()) {
-        stop_ = true;
-      }
-      report_progress();
+      goes_on = record_turn() || samples_.wait_for_samples();
     } catch (...) {
       record_error_ = thrown("recording");
       stop_ = true;
-    }
-    if (is_empty && has_ended) {
-      return;
-    }
-    if (is_empty) {
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   }
 }
 
 void Run::report_progress() {
-  if (!request_.progress || program_.lines == 0 || record_error_) {
+  if (!request_.progress || outlook_.program.lines == 0 || record_error_) {
     return;
   }
-  const auto percent =
-      static_cast<int>(100 * recorder_.last().line / std::max<std::int64_t>(program_.lines, 1));
+  const auto percent = static_cast<int>(100 * recorder_.last().line / outlook_.program.lines);
   if (percent != shown_percent_) {
     shown_percent_ = percent;
     request_.progress(percent / 100.0);
@@ -191,8 +184,7 @@ void Run::report_progress() {
 
 std::optional<Error> Run::failure() const {
   // What switched the machine off is said before what only braked it.
-  const bool was_switched_off =
-      motion_.trip && motion_.trip->reaction == motion::Reaction::kImmediate;
+  const bool was_switched_off = motion_.trip && is_immediate(*motion_.trip);
   for (const auto& error : {move_error_, record_error_, plan_error_}) {
     if (error && !was_switched_off) {
       return error;
@@ -202,16 +194,25 @@ std::optional<Error> Run::failure() const {
 }
 
 results::Summary Run::summarise(double wall_time) {
+  const config::MachineFile& machine = request_.machine;
+  const PlanFigures figures = planner_.figures();
   results::Summary summary;
-  summary.program = request_.program.filename().string();
-  summary.machine = request_.machine.name;
+  summary.program = request_.program.file.filename().string();
+  summary.machine = machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
-  summary.interpolator = kInterpolatorNames[static_cast<std::size_t>(request_.machine.path.curves)];
+  summary.planner = kPlannerNames[static_cast<std::size_t>(machine.path.planner)];
+  summary.interpolator = kCurveNames[static_cast<std::size_t>(machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
-  summary.period = request_.machine.period;
-  put_into(summary, plan_figures_, is_certified(request_.machine.path, request_.machine.planning));
-  summary.planned_time = planned_time_.value_or(plan_figures_.time);
+  summary.period = machine.period;
+  put_into(summary, figures, machine.path.planner == Planner::kCertified);
+  summary.planned_time = outlook_.planned_time.value_or(figures.time);
   summary.overrides = feed_.records();
+  summary.notes = request_.machine.notes;
+  summary.version = version();
+  summary.command = request_.command;
+  summary.program_sha256 = request_.program.text ? sha256(*request_.program.text)
+                                                 : sha256_of_file(request_.program.file);
+  summary.settings = config::settings_of(request_.machine);
   recorder_.summarise(summary);
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;
@@ -224,25 +225,22 @@ results::Summary Run::summarise(double wall_time) {
   return summary;
 }
 
-/// Starts both threads and records until they have ended.
-void Run::run_threads(gcode::Reader& reader) {
-  const std::jthread planning([this, &reader] { guarded_plan(reader); });
+/// Starts the threads and records until they have ended.
+void Run::run_threads() {
   try {
+    planning_->start();
     const std::jthread motion([this] { guarded_move(); });
     record();
-  } catch (...) {  // no second thread could be had
-    move_error_ = thrown("the motion thread");
-    segments_.stop();
+  } catch (...) {  // a thread could not be had
+    move_error_ = thrown("starting a thread");
+    planning_->stop();
   }
+  plan_error_ = planning_->join();
 }
 
 Expected<RunResult> Run::execute() {
-  auto reader = gcode::Reader::open(request_.program.string(), reader_options(request_));
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
   const auto start = std::chrono::steady_clock::now();
-  run_threads(*reader);
+  run_threads();
   const double wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunResult result;
@@ -251,8 +249,10 @@ Expected<RunResult> Run::execute() {
   result.met_at = motion_.met_at;
   result.rest_at = motion_.rest_at;
   result.summary = summarise(wall_time);
-  if (const auto saved = result.failure ? Expected<void>{} : recorder_.commit(); !saved) {
-    result.failure = saved.error();
+  if (!result.failure) {
+    if (auto saved = recorder_.commit(); !saved) {
+      result.failure = std::move(saved).error();
+    }
   }
   if (result.failure) {
     recorder_.abandon();
@@ -260,39 +260,42 @@ Expected<RunResult> Run::execute() {
   return result;
 }
 
+/// Reads the whole program before anything moves, and plans it where a cycle time is wanted.
+Expected<Outlook> look_at(const RunRequest& request) {
+  const gcode::ReaderOptions options = reader_options(request);
+  if (request.hal == nullptr && request.overrides.empty()) {
+    TWIN_TRY(const ProgramFigures program,
+             check_program(request.program, options, request.machine.limits));
+    return Outlook{.program = program, .planned_time = std::nullopt};
+  }
+  TWIN_TRY(const Estimate estimate,
+           estimate_program(request.program, options, request.machine, request.stop));
+  if (request.estimated) {
+    request.estimated(estimate.plan.time);
+  }
+  return Outlook{.program = estimate.program, .planned_time = estimate.plan.time};
+}
+
+/// Makes the folder of the results, and that of the plots in it.
+Expected<void> make_folders(const std::filesystem::path& directory) {
+  std::error_code code;
+  if (!directory.empty()) {
+    std::filesystem::create_directories(directory / "plots", code);
+  }
+  return code ? file_error(directory, "make this folder", code.value()) : Expected<void>{};
+}
+
 }  // namespace
 
 Expected<RunResult> run_program(const RunRequest& request) {
-  const gcode::ReaderOptions options = reader_options(request);
-  auto program = check_program(request.program, options, request.machine.limits);
-  if (!program) {
-    return tl::unexpected(program.error());
-  }
-  std::optional<double> planned_time;
-  if (request.hal != nullptr || !request.overrides.empty()) {
-    const auto plan = estimate_plan(request.program, options, request.machine, request.stop);
-    if (!plan) {
-      return tl::unexpected(plan.error());
-    }
-    planned_time = plan->time;
-    if (request.estimated) {
-      request.estimated(plan->time);
-    }
-  }
-  std::error_code code;
-  std::filesystem::create_directories(request.directory / "plots", code);
-  if (code) {
-    return file_error(request.directory, "make this folder", code.value());
-  }
+  TWIN_TRY(const Outlook outlook, look_at(request));
+  TWIN_CHECK(make_folders(request.directory));
   hal::ActiveMachine machine(request.hal);
-  if (auto started = machine.start(request.machine.period); !started) {
-    return tl::unexpected(started.error());
-  }
-  auto recorder = Recorder::create(recorder_options(request));
-  if (!recorder) {
-    return tl::unexpected(recorder.error());
-  }
-  Run run(request, *program, std::move(*recorder), planned_time);
+  TWIN_CHECK(machine.start(request.machine.period));
+  TWIN_TRY(gcode::Reader reader, open_program(request.program, reader_options(request)));
+  SharedBlocks blocks(std::move(reader));
+  TWIN_TRY(Recorder recorder, Recorder::create(recorder_options(request), blocks.second()));
+  Run run(request, outlook, blocks, std::move(recorder));
   return run.execute();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -13,47 +14,74 @@
 #include "hal/machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "results/metrics/summary.hpp"
-#include "runtime/hooks.hpp"
+#include "runtime/motion.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
+#include "runtime/program_source.hpp"
+#include "twin/trace.hpp"
 
 namespace twin::runtime {
 
-/// What to run.
-struct RunRequest {
-  std::filesystem::path program;  ///< NC program
+/// What a run does.
+struct RunTask {
+  ProgramSource program;
   config::MachineFile machine;
-  hal::Machine* hal = nullptr;      ///< unconfigured machine; null: plan only
-  std::optional<double> feedrate;   ///< replaces the program's F words [mm/s]
-  std::filesystem::path directory;  ///< of the results; made when missing
-  bool is_wall_clock = false;       ///< one period of the cycle per period of the wall clock
+  hal::Machine* hal = nullptr;     ///< unconfigured machine; null: plan only
+  std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
+  std::string command;             ///< command line or other words of the caller, for the summary
+};
+
+/// Where the results of a run go.
+struct RunOutput {
+  std::filesystem::path directory;  ///< made when missing; empty: no file is written
+  std::vector<TraceSink*> sinks;    ///< get the rows of the trace, besides the files
+};
+
+/// How a run goes.
+struct RunConduct {
+  bool is_wall_clock = false;             ///< one period of the cycle per period of the wall clock
+  std::vector<OverrideChange> overrides;  ///< of the feedrate, while it moves
+  Until until;                            ///< ends the motion early, as at the path's end
+};
+
+/// Who takes part in a run. Null and empty: nobody.
+struct RunListeners {
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
   std::function<void(double)> estimated;    ///< gets the cycle time before anything moves [s]
-  std::vector<OverrideChange> overrides;    ///< of the feedrate, while it moves
   OperatorPanel* panel = nullptr;           ///< for override and hold by an operator
-  Until until;                              ///< ends the motion early, as at the path's end
-  Hooks hooks;                              ///< for tests
-  std::string command;             ///< command line or other words of the caller, for the summary
-  std::vector<std::string> notes;  ///< what the caller changed of what was asked for, the same
+};
+
+/// What tests put between the parts of a run to make it go wrong. Empty functions do nothing.
+struct TestHooks {
+  /// In the motion thread, on the wall clock, after a period has begun; gets its number from 0.
+  std::function<void(std::int64_t)> before_period;
+  /// Where a segment has been planned for the motion; gets its number from 0.
+  std::function<void(std::int64_t)> before_segment;
+};
+
+/// A run as it is asked for.
+struct RunRequest : RunTask, RunOutput, RunConduct, RunListeners {
+  TestHooks hooks;
 };
 
 /// How far a run got.
 struct RunResult {
   results::Summary summary;
-  std::optional<Error>
-      failure;  ///< why it ended early; what was recorded is kept, named as partial
+  /// Why the run ended early; what was recorded is kept, named as partial.
+  std::optional<Error> failure;
   std::optional<motion::Trip> trip;  ///< where a monitor was the reason
   std::optional<Vec2> met_at;        ///< measured, where `until` came true [mm]
   Vec2 rest_at = Vec2::Zero();       ///< measured when the machine was switched off [mm]
 };
 
-/// Plans a program, moves the machine along it and records everything: planning thread, motion
-/// thread, and the caller's as recorder.
+/// Plans a program, moves the machine along it and records everything.
 ///
-/// Before anything moves the whole program is read and held against the travel, and planned for the
-/// cycle time. Whatever ends the
-/// motion, the machine is off by then; what throws in a thread, progress() included, brakes it.
+/// Before anything moves, the whole program is read, held against the travel, and planned for the
+/// cycle time. The second reading is that of the run: its blocks go to planning and to the recorder.
+/// The motion has a thread of its own, and the caller's thread is the recorder. On the wall clock
+/// planning has a thread too; in lockstep it is done in the motion's. Whatever ends the motion, the
+/// machine is off by then; what throws in a thread, progress() included, brakes it.
 ///
 /// @returns what was recorded, or the error that kept the run from starting
 Expected<RunResult> run_program(const RunRequest& request);

@@ -3,7 +3,7 @@
 namespace twin::runtime {
 namespace {
 
-constexpr double kHoldTime = 0.1;  // at the path's end, before the machine is switched off [s]
+constexpr double kRestAfter = 0.1;  // at the path's end, before the machine is switched off [s]
 
 }  // namespace
 
@@ -11,31 +11,35 @@ gcode::ReaderOptions reader_options(const RunRequest& request) {
   return {.feedrate = request.feedrate};
 }
 
-FeedControl::Options feed_options(const RunRequest& request) {
+FeedControl::Options feed_options(const RunRequest& request, double first_percent) {
   const Limits& limits = request.machine.limits;
   return {.schedule = request.overrides,
-          .ramp = {limits.acceleration, limits.jerk},
+          .ramp = {.acceleration = limits.acceleration, .jerk = limits.jerk},
           .period = request.machine.period,
           .is_wall_clock = request.is_wall_clock,
+          .first_percent = first_percent,
           .feedrate = limits.feedrate};
 }
 
-Pace pace_of(const RunRequest& request) {
-  Pace pace;
-  pace.is_wall_clock = request.is_wall_clock;
-  pace.period = request.machine.period;
-  pace.ready_timeout = request.machine.safety.ready_timeout;
-  pace.realtime = request.machine.realtime;
-  pace.before_period = request.hooks.before_period;
-  pace.until = request.until;
-  pace.hold_time = kHoldTime;
-  return pace;
+MotionOptions motion_options(const RunRequest& request) {
+  return {.period = request.machine.period,
+          .rest_after = kRestAfter,
+          .ready_timeout = request.machine.safety.ready_timeout,
+          .limits = request.machine.limits,
+          .until = request.until};
+}
+
+WallClockPace::Options wall_clock_options(const RunRequest& request) {
+  const bool keeps_own_time = request.hal != nullptr && request.hal->info().keeps_own_time;
+  return {.period = request.machine.period,
+          .realtime = request.machine.realtime,
+          .schedule = keeps_own_time ? Schedule::kKept : Schedule::kShifted,
+          .before_period = request.hooks.before_period};
 }
 
 Recorder::Options recorder_options(const RunRequest& request) {
   return {.directory = request.directory,
-          .program = request.program,
-          .reader = reader_options(request),
+          .sinks = request.sinks,
           .limits = request.machine.limits,
           .period = request.machine.period,
           .has_machine = request.hal != nullptr,

@@ -3,6 +3,7 @@
 #include "gcode/reader.hpp"
 #include "runtime/feed_control.hpp"
 #include "runtime/motion.hpp"
+#include "runtime/pace.hpp"
 #include "runtime/recorder.hpp"
 #include "runtime/run.hpp"
 
@@ -10,8 +11,10 @@ namespace twin::runtime {
 
 /// What the parts of a run are told of its request.
 gcode::ReaderOptions reader_options(const RunRequest& request);
-FeedControl::Options feed_options(const RunRequest& request);
-Pace pace_of(const RunRequest& request);
+/// @param first_percent  override of the first plan [%]
+FeedControl::Options feed_options(const RunRequest& request, double first_percent);
+MotionOptions motion_options(const RunRequest& request);
+WallClockPace::Options wall_clock_options(const RunRequest& request);
 Recorder::Options recorder_options(const RunRequest& request);
 
 }  // namespace twin::runtime

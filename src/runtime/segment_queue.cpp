@@ -1,8 +1,9 @@
 #include "runtime/segment_queue.hpp"
 
-#include <chrono>
-#include <thread>
+#include <limits>
 #include <utility>
+
+#include "runtime/nap.hpp"
 
 namespace twin::runtime {
 
@@ -29,12 +30,12 @@ bool SegmentQueue::try_push(feedrate::PlannedSegment& segment, std::int64_t plan
 
 bool SegmentQueue::push(feedrate::PlannedSegment&& segment) {
   const std::int64_t plan = segment.plan;
-  const double end = reach(plan) + segment.segment.length;
+  const double end = reach_[plan & 1].load() + segment.segment.length;
   while (!try_push(segment, plan, end)) {
     if (is_stopped()) {
       return false;
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(50));
+    nap();
   }
   return !is_stopped();
 }
@@ -67,6 +68,11 @@ void SegmentQueue::release(const feedrate::PlannedSegment* segment) noexcept {
 
 bool SegmentQueue::is_finished() const noexcept {
   return is_closed(plan_) && ahead_ == nullptr && planned_.read_available() == 0;
+}
+
+double SegmentQueue::reach(std::int64_t plan) const noexcept {
+  return is_closed(plan) ? std::numeric_limits<double>::infinity()
+                         : reach_[plan & 1].load(std::memory_order_acquire);
 }
 
 bool SegmentQueue::is_primed() const noexcept {

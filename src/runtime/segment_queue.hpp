@@ -8,19 +8,20 @@
 #include <vector>
 
 #include "feedrate/planned_segment.hpp"
-#include "motion/interpolator/interpolator.hpp"
+#include "runtime/replanning.hpp"
 
 namespace twin::runtime {
 
 /// The bounded buffer of planned segments between planning thread and motion thread.
 ///
-/// A fixed number of segments goes round: the planning thread takes a free one, fills it
-/// (allocating as it must) and pushes it; the motion thread pops it, follows it, and gives it back.
-/// So the motion thread neither allocates nor frees, and a planner that is far ahead waits.
+/// It serves a motion on the wall clock. A fixed number of segments goes round: the planning thread
+/// fills a free one (allocating as it must) and queues it; the motion thread dequeues it, follows
+/// it, and releases it. So the motion thread neither allocates nor frees memory, and a planner that
+/// is far ahead waits.
 ///
-/// Where another plan takes over, its segments come after those of the plan before; what is left of
-/// that one is passed over by adopt(). How far a plan reaches is known for the two latest ones.
-class SegmentQueue final : public motion::SegmentSource {
+/// Where another plan takes over, its segments come after those of the plan before, and adopt()
+/// passes over what is left of that one. How far a plan reaches is known for the two latest ones.
+class SegmentQueue final : public PlanSupply {
  public:
   /// @param capacity  segments of a plan that wait in it
   /// @param spare     room for those of the next plan while they do
@@ -28,11 +29,11 @@ class SegmentQueue final : public motion::SegmentSource {
 
   // Planning thread.
 
-  /// Hands a segment over; waits while the buffer is full. @returns false if the motion was stopped
+  /// Queues a segment; waits while the buffer is full. @returns false if the motion was stopped
   /// meanwhile
   bool push(feedrate::PlannedSegment&& segment);
-  /// Hands a segment over. @param reach  see set_reach() @returns false, with nothing done, if the
-  /// buffer is full
+  /// Queues a segment. @param reach  see set_reach()
+  /// @returns false, with nothing done, if the buffer is full
   bool try_push(feedrate::PlannedSegment& segment, std::int64_t plan, double reach);
   /// The latest plan is known up to a distance from the path's start [mm].
   void set_reach(std::int64_t plan, double reach) noexcept {
@@ -48,18 +49,10 @@ class SegmentQueue final : public motion::SegmentSource {
   void release(const feedrate::PlannedSegment* segment) noexcept override;
   bool is_finished() const noexcept override;
   void adopt(std::int64_t plan) noexcept override;
-  /// Distance from the path's start up to which a plan is known [mm].
-  double reach(std::int64_t plan) const noexcept {
-    return reach_[plan & 1].load(std::memory_order_acquire);
-  }
-  /// Whether all of a plan has been handed over.
-  bool is_closed(std::int64_t plan) const noexcept {
-    const std::int64_t closed = closed_.load(std::memory_order_acquire);
-    return closed == plan || closed == kEveryPlan;
-  }
-  /// Whether the buffer is full, or holds all of the plan that is followed, so that motion may
-  /// start.
-  bool is_primed() const noexcept;
+  /// Infinite where all of the plan has been queued.
+  double reach(std::int64_t plan) const noexcept override;
+  /// Whether the buffer is full, or holds all of the plan that is followed.
+  bool is_primed() const noexcept override;
 
   // Any thread.
 
@@ -68,6 +61,12 @@ class SegmentQueue final : public motion::SegmentSource {
   bool is_stopped() const noexcept { return is_stopped_.load(std::memory_order_acquire); }
 
  private:
+  /// Whether all of a plan has been queued.
+  bool is_closed(std::int64_t plan) const noexcept {
+    const std::int64_t closed = closed_.load(std::memory_order_acquire);
+    return closed == plan || closed == kEveryPlan;
+  }
+
   using Ring = boost::lockfree::spsc_queue<feedrate::PlannedSegment*>;
 
   std::size_t capacity_;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "feedrate/profile/phase.hpp"
+#include "feedrate/profile/phases.hpp"
 #include "motion/interpolator/interpolator.hpp"
 
 namespace twin::runtime {

@@ -50,7 +50,6 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.overrides = request_.overrides;
   run.until = request_.until;
   run.command = request_.command;
-  run.notes = request_.machine.notes;
   run.stop = attendance.stop;
   run.panel = attendance.panel;
   run.progress = attendance.progress;

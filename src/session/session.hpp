@@ -41,7 +41,7 @@ struct Request {
   Pace pace = Pace::kOwn;
   std::vector<runtime::OverrideChange> overrides{};  ///< of the feedrate, while it moves
   runtime::Until until{};                            ///< ends the motion early
-  std::string command;     ///< command line or other words of the caller, for the summary
+  std::string command{};   ///< command line or the caller's own words, for the summary
   bool has_bound = false;  ///< the summary gets the lower bound of the time as well
 };
 

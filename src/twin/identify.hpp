@@ -25,10 +25,10 @@ struct IdentifyOptions {
 
 /// What recordings say of a machine.
 struct Identification {
-  Settings settings;               ///< those of the start with everything that was identified
-  std::string toml;                ///< the same as a machine file that says where each value is from
-  std::string table;               ///< what `twin identify` prints
-  std::string json;                ///< parameters, predictions and verdicts as identify.json has them
+  Settings settings;  ///< those of the start with everything that was identified
+  std::string toml;   ///< the same as a machine file that says where each value is from
+  std::string table;  ///< what `twin identify` prints
+  std::string json;   ///< parameters, predictions and verdicts as identify.json has them
   std::vector<std::string> notes;  ///< what was noticed and let pass
 };
 

@@ -26,7 +26,7 @@ struct SetPoint {
 ///
 /// Planning happens inside next(), as far ahead as the look-ahead needs, so a call now and then
 /// takes longer than a period and allocates memory. For hard real time draw the set points ahead
-/// into a buffer. One thread at a time.
+/// into a buffer. One thread at a time calls next(); the rest may be called from any.
 class TWIN_EXPORT Interpolator {
  public:
   /// @throws Failure if the program cannot be opened
@@ -44,11 +44,10 @@ class TWIN_EXPORT Interpolator {
   /// Feed override: from a place ahead the path is followed at this share of the programmed
   /// feedrate. @param percent  0 to 200; 0 holds [%]
   void set_override(double percent);
-  /// Brakes on the path to rest and stays there.
+  /// Brakes on the path to rest and stays there: next() then gives the same place each time.
   void hold();
   /// Goes on after hold().
   void resume();
-  bool is_holding() const noexcept;  ///< at rest on the path, or braking to it, because of hold()
 
  private:
   struct Data;

@@ -5,6 +5,7 @@
 #include "twin/identify.hpp"
 #include "twin/interpolator.hpp"
 #include "twin/machine.hpp"
+#include "twin/machines.hpp"
 #include "twin/plan.hpp"
 #include "twin/program.hpp"
 #include "twin/run.hpp"

@@ -47,8 +47,8 @@ class PerfectTable final : public hal::Machine {
     info_.mm_per_s_per_volt.fill(100.0);
   }
   const hal::MachineInfo& info() const noexcept override { return info_; }
-  Expected<void> configure(double /*period*/) override { return {}; }
-  Expected<void> activate() override { return {}; }
+  std::optional<Error> configure(double /*period*/) override { return {}; }
+  std::optional<Error> activate() override { return {}; }
   hal::Status read(hal::Inputs& inputs) noexcept override {
     for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
       inputs.counts[i] = std::llround(reference_[i] / info_.mm_per_count[i]);
@@ -101,7 +101,7 @@ void interpolate_and_servo(benchmark::State& state) {
   LoopingSource source(plan_of_circle());
   motion::Interpolator interpolator(source, 0.001);
   hal::ideal::IdealMachine machine;
-  if (!machine.configure(0.001) || !machine.activate()) {
+  if (!checked(machine.configure(0.001)) || !checked(machine.activate())) {
     state.SkipWithError("no machine");
     return;
   }
@@ -147,7 +147,7 @@ void whole_period_on_the_rig(benchmark::State& state) {
                                     settings);
   };
   rig::RigMachine machine(settings, {{1e-3, 1e-3}, {100.0, 100.0}}, open);
-  if (!machine.configure(0.001)) {
+  if (!checked(machine.configure(0.001))) {
     state.SkipWithError("no machine");
     return;
   }
@@ -155,7 +155,7 @@ void whole_period_on_the_rig(benchmark::State& state) {
   blind.tracking_error = blind.runaway = blind.frozen_encoder = blind.saturation_time = 1e12;
   Cycle cycle(interpolator, &machine, config::MachineFile{}.servo, 0.001, blind);
   results::Sample sample;
-  if (!machine.activate() || cycle.hold() != hal::Status::kOk) {
+  if (!checked(machine.activate()) || cycle.hold() != hal::Status::kOk) {
     state.SkipWithError("no machine");
     return;
   }
@@ -176,7 +176,7 @@ void whole_period_on_the_table(benchmark::State& state) {
   hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
   hal::mujoco::MujocoMachine machine(params);
-  if (!machine.configure(0.001) || !machine.activate()) {
+  if (!checked(machine.configure(0.001)) || !checked(machine.activate())) {
     state.SkipWithError("no machine");
     return;
   }

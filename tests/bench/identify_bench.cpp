@@ -48,7 +48,7 @@ void mujoco_table(benchmark::State& state) {
       motion::AxisServo{machine.servo[1], 83.0, machine.period}};
   for (auto _ : state) {
     hal::mujoco::MujocoMachine table(machine.table);
-    if (!table.configure(machine.period) || !table.activate()) {
+    if (!checked(table.configure(machine.period)) || !checked(table.activate())) {
       state.SkipWithError("no table");
       return;
     }

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "feedrate/planner.hpp"
 #include "gcode/reader.hpp"
-#include "path/builder.hpp"
 #include "runtime/planning.hpp"
 #include "runtime/program_bound.hpp"
 #include "tests/bench/peak_memory.hpp"
@@ -72,8 +72,8 @@ void blocks_to_path(benchmark::State& state, double block_length, Planner planne
   bench::reset_peak_memory();
   for (auto _ : state) {
     const auto builder =
-        path::make_builder(machine.path, machine.planning, machine.limits,
-                           [](path::Segment&& segment) { benchmark::DoNotOptimize(segment); });
+        feedrate::make_planner(machine.limits, machine.planning, machine.path, machine.period)
+            ->make_builder([](path::Segment&& segment) { benchmark::DoNotOptimize(segment); });
     for (const gcode::Block& block : blocks) {
       builder->push(block);
     }

@@ -1,4 +1,4 @@
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 
 // Machine files and models that cannot be used.
 namespace twin::cli {

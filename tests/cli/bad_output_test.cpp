@@ -1,6 +1,6 @@
 #include <unistd.h>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 
 // Results that cannot be written.
 namespace twin::cli {

@@ -1,6 +1,6 @@
 #include <random>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 
 // Programs that cannot be run: one line with file and line, exit status 1, nothing moved.
 namespace twin::cli {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
 
 namespace twin::cli {

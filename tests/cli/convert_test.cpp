@@ -1,8 +1,7 @@
-#include <fstream>
-#include <iterator>
 #include <tuple>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::cli {
 namespace convert_test {
@@ -21,10 +20,7 @@ class Convert : public test::CliTest {
     }
     folder.put("rising.nc", text + "M30\n");
   }
-  std::string content_of(const std::string& name) const {
-    std::ifstream file(folder / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
+  std::string content_of(const std::string& name) const { return test::content(folder / name); }
 };
 
 TEST_F(Convert, WritesTheFileAndATable) {

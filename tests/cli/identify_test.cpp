@@ -1,7 +1,7 @@
 #include <cmath>
 #include <functional>
 
-#include "cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 
 namespace twin::test {
 namespace identify_test {

@@ -4,9 +4,9 @@
 #include <thread>
 
 #include "core/limits.hpp"
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Ctrl-C brakes on the path, stops the machine and keeps what was recorded.
 namespace twin::cli {
@@ -73,7 +73,27 @@ TEST_P(InterruptInSimulatedTime, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptInSimulatedTime, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& test) { return test.param == SIGINT ? "Int" : "Term"; });
 
-using InterruptTwice = Interrupt;
+class InterruptTwice : public Interrupt {
+ protected:
+  /// Waits until a process has been given a signal: one that is sent while another is pending would
+  /// be the same one. What is pending is a hexadecimal mask in /proc.
+  static bool has_taken(pid_t process, int signal) {
+    const std::string key = "ShdPnd:";
+    for (int i = 0; i < 5000; ++i) {
+      const std::string status = test::content("/proc/" + std::to_string(process) + "/status");
+      const std::size_t at = status.find(key);
+      if (at == std::string::npos) {
+        return false;
+      }
+      const auto pending = std::stoull(status.substr(at + key.size()), nullptr, 16);
+      if ((pending >> (signal - 1) & 1U) == 0) {
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+};
 
 TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
   test::Child child(
@@ -81,7 +101,7 @@ TEST_P(InterruptTwice, SecondOneEndsTheProcess) {
       {folder.path(), {}});  // so gentle that braking takes two seconds
   wait_for_samples();
   child.signal(GetParam());
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ASSERT_TRUE(has_taken(child.pid(), GetParam()));
   child.signal(GetParam());
   EXPECT_EQ(child.wait().status, 128 + GetParam());
   EXPECT_FALSE(exists("out/trace.csv"));

@@ -11,9 +11,9 @@
 
 #include "core/descriptor.hpp"
 #include "core/limits.hpp"
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 namespace twin::cli {
 namespace override_test {

@@ -2,9 +2,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "core/sha256.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // trace.csv and summary.json are read by other programs: names, order and units are an interface.
 namespace twin::cli {
@@ -26,13 +27,13 @@ class Results : public test::CliTest {
   }
 };
 
-/// The keys of an object and of the objects in it, as "a b{c d}".
+/// The keys of an object and of the objects in it but the settings, as "a b{c d}".
 std::string keys(const Json& json) {
   std::string text;
   for (const auto& [key, value] : json.items()) {
     text += text.empty() ? "" : " ";
     text += key;
-    if (value.is_object()) {
+    if (value.is_object() && key != "settings") {
       text.append("{").append(keys(value)).append("}");
     }
   }
@@ -47,9 +48,10 @@ const std::string kRunHeader =
 const std::string kPlanHeader = "t_s,segment,line,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s";
 
 const std::string kPlanKeys1 =
-    "program machine hal interpolator simulated period_s "
+    "program machine hal planner interpolator simulated period_s "
     "blocks{total short length_mm{min mean max}} segments{total curves lines arcs spans} "
     "compression_factor path_length_mm planned_time_s ";
+const std::string kOrigin = " version command program_sha256 settings";
 const std::string kAxis = "{velocity_mm_per_s acceleration_mm_per_s2 jerk_mm_per_s3}";
 const std::string kAudit =
     "feedrate_fluctuation_percent{max rms} "
@@ -65,7 +67,7 @@ TEST_F(Results, OfARunHaveTheirNamesInOrder) {
                 "machining_time_s certified_deviation_um command_contour_error_um{max rms} "
                 "contour_error_um{max rms} "
                 "table_contour_error_um{max rms} tracking_error_um{x{max rms} y{max rms}} " +
-                kAudit + " cycle_time_us{p50 p99 max} real_time_factor");
+                kAudit + " cycle_time_us{p50 p99 max} real_time_factor" + kOrigin);
   EXPECT_EQ(summary["program"], "ok.nc");
   EXPECT_EQ(summary["machine"], "xy_table");
   EXPECT_EQ(summary["hal"], "mujoco");
@@ -76,14 +78,15 @@ TEST_F(Results, OfARunHaveTheirNamesInOrder) {
 TEST_F(Results, OfAPlanHaveTheSetPointsAlone) {
   const Json summary = run("plan", "out");
   EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kPlanHeader);
-  EXPECT_EQ(keys(summary),
-            kPlanKeys1 + "certified_deviation_um command_contour_error_um{max rms} " + kAudit);
+  EXPECT_EQ(
+      keys(summary),
+      kPlanKeys1 + "certified_deviation_um command_contour_error_um{max rms} " + kAudit + kOrigin);
 }
 
 TEST_F(Results, OfAPlanHaveItsBoundWhereAskedFor) {
   const Json summary = run("plan", "out", {"--bound"});
   EXPECT_EQ(keys(summary), kPlanKeys1 + "time_bound_s bound_ratio certified_deviation_um " +
-                               "command_contour_error_um{max rms} " + kAudit);
+                               "command_contour_error_um{max rms} " + kAudit + kOrigin);
   const double bound = summary["time_bound_s"];
   const double planned = summary["planned_time_s"];
   EXPECT_LT(bound, planned);
@@ -144,12 +147,15 @@ TEST_F(Results, TwoRunsLeaveTheSameBytesButForTheClock) {
   for (Json* summary : {&first, &second}) {
     EXPECT_EQ(summary->erase("cycle_time_us"), 1U);
     EXPECT_EQ(summary->erase("real_time_factor"), 1U);
+    EXPECT_EQ(summary->erase("command"), 1U);  // it names the folder
   }
   EXPECT_EQ(first.dump(), second.dump());
-  run("plan", "c");
-  run("plan", "d");
-  EXPECT_EQ(content(folder / "c/trace.csv"), content(folder / "d/trace.csv"));
-  EXPECT_EQ(content(folder / "c/summary.json"), content(folder / "d/summary.json"));
+  run("plan", "out");
+  const std::string trace = content(folder / "out/trace.csv");
+  const std::string summary = content(folder / "out/summary.json");
+  run("plan", "out");
+  EXPECT_EQ(content(folder / "out/trace.csv"), trace);
+  EXPECT_EQ(content(folder / "out/summary.json"), summary);
 }
 
 TEST_F(Results, CommandOfARunIsThatOfThePlan) {
@@ -168,6 +174,18 @@ TEST_F(Results, OptionsAreInForce) {
   EXPECT_EQ(long_period["period_s"], 0.002);
   EXPECT_EQ(long_period["hal"], "ideal");
   EXPECT_EQ(long_period["tracking_error_um"]["x"]["max"], 0.0);
+}
+
+TEST_F(Results, SummarySaysWhatItWasMadeFrom) {
+  const Json plan =
+      run("plan", "a", {"--set", "limits.jerk=4e4", "--set", "planning.planner=paper"});
+  EXPECT_EQ(plan["planner"], "paper");
+  EXPECT_EQ(plan["settings"]["limits"]["jerk_mm_per_s3"], 4e4);
+  EXPECT_EQ(plan["settings"]["planning"]["planner"], "paper");
+  EXPECT_EQ(plan["program_sha256"], sha256_of_file(folder / "ok.nc"));
+  EXPECT_NE(plan["command"].get<std::string>().find(" plan "), std::string::npos);
+  EXPECT_NE(plan["command"].get<std::string>().find(" --set limits.jerk=4e4"), std::string::npos);
+  EXPECT_FALSE(plan["version"].get<std::string>().empty());
 }
 
 TEST_F(Results, FileThatIsNotWantedAnyMoreGoes) {

@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/hal/rig/sysfs_tree.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/sysfs_tree.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // The switch --hal rig and the commands of `twin rig`, on emulated boards.
 namespace twin::cli {
@@ -61,7 +61,7 @@ class RealCards : public Rig {
     EXPECT_EQ(registers.substr(0x0A, 6), std::string("\x00\x80\x00\x80\x01\x01", 6));
   }
 
-  hal::rig::testing::SysfsTree tree;
+  test::SysfsTree tree;
 };
 
 TEST_F(RealCards, NothingIsOpenedBeforeTheUserSaysThatItMayMove) {

@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
 
 namespace twin::cli {

@@ -1,9 +1,10 @@
 #include <cmath>
 #include <ostream>
 
+#include "config/rules.hpp"
 #include "results/metrics/limit_audit.hpp"
-#include "tests/closed_loop/loop_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/loop_fixture.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Set points of every program of nc_programs against the machine's limits, from differences alone.
 namespace twin {
@@ -23,8 +24,8 @@ struct Case {
 };
 
 void PrintTo(const Case& tested, std::ostream* out) {
-  *out << tested.program << ", " << kInterpolatorNames[static_cast<std::size_t>(tested.curves)]
-       << ", " << 1e3 * tested.period << " ms, profile " << static_cast<int>(tested.profile);
+  *out << tested.program << ", " << kCurveNames[static_cast<std::size_t>(tested.curves)] << ", "
+       << 1e3 * tested.period << " ms, profile " << static_cast<int>(tested.profile);
 }
 
 class ProgramLimits : public test::LoopTest, public ::testing::WithParamInterface<Case> {};
@@ -34,6 +35,7 @@ TEST_P(ProgramLimits, FeedrateAccelerationAndJerkAreKept) {
   file.period = GetParam().period;
   file.path.curves = GetParam().curves;
   file.planning.acceleration_profile = GetParam().profile;
+  ASSERT_TRUE(config::resolve_planner(file));
   const results::Summary summary =
       execute(program(GetParam().program), file, nullptr, std::nullopt);
   const Limits& limits = file.limits;
@@ -54,6 +56,7 @@ TEST_P(ProgramLimits, VelocityChangesByAMaxTInAPeriodAtMostEachWay) {
   file.period = GetParam().period;
   file.path.curves = GetParam().curves;
   file.planning.acceleration_profile = GetParam().profile;
+  ASSERT_TRUE(config::resolve_planner(file));
   execute(program(GetParam().program), file, nullptr, std::nullopt);
   const test::TraceRows rows(folder / "out/trace.csv");
   const auto x = rows.column("x_cmd_mm");

@@ -103,6 +103,27 @@ TEST(MachineFile, AKeyGivenTwiceInBothFormsIsRefused) {
   EXPECT_THAT(refusal("[limits]\njerk = 1\njerk_mm_per_s3 = 2\n"), HasSubstr("given twice"));
 }
 
+TEST(MachineFile, AFormerKeyIsUnderstoodAndNoted) {
+  const MachineFile m =
+      parsed("[planning]\nplanner = \"paper\"\n[interpolator]\nkind = \"bezier\"\n");
+  EXPECT_EQ(m.path.curves, CurveKind::kBezier);
+  EXPECT_THAT(m.notes, ::testing::ElementsAre("interpolator.kind is now called path.curves"));
+  EXPECT_THAT(to_toml(m), HasSubstr("[path]\ncurves = \"bezier\""));
+  EXPECT_THAT(refusal("[path]\ncurves = \"nurbs\"\n[interpolator]\nkind = \"bezier\"\n"),
+              HasSubstr("path.curves is given twice"));
+}
+
+TEST(MachineFile, ThePlannerThatPlansIsResolvedAndNoted) {
+  const MachineFile m =
+      parsed("[planning]\nplanner = \"certified\"\nacceleration_profile = \"fir\"\n");
+  EXPECT_EQ(m.path.planner, Planner::kPaper);
+  ASSERT_EQ(m.notes.size(), 1U);
+  EXPECT_THAT(m.notes[0], HasSubstr("planning.planner = paper, because "
+                                    "planning.acceleration_profile = fir"));
+  EXPECT_EQ(parsed("").path.planner, Planner::kCertified);
+  EXPECT_TRUE(parsed("").notes.empty());
+}
+
 TEST(MachineFile, ValuesThatDoNotFitTogetherAreRefused) {
   EXPECT_THAT(refusal("[limits]\ntravel_min_mm = [0, 300, 0]\n"), HasSubstr("in y"));
   EXPECT_THAT(refusal("[planning]\nmin_segments = 30\n"),

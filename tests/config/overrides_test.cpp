@@ -6,7 +6,9 @@
 namespace twin::config {
 namespace overrides_test {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::string refusal(std::string_view text) {
   MachineFile machine;
@@ -98,6 +100,55 @@ TEST(Overrides, WhatTheySayTogetherIsChecked) {
   ASSERT_FALSE(done);
   EXPECT_EQ(exit_status(done.error()), 2);
   EXPECT_THAT(done.error().message, HasSubstr("in z"));
+}
+
+TEST(Overrides, AFormerNameIsUnderstoodAndNoted) {
+  MachineFile machine;
+  ASSERT_TRUE(apply_overrides(
+      machine, std::vector<std::string>{"planning.planner=paper", "interpolator.kind=linear"}));
+  EXPECT_EQ(machine.path.curves, CurveKind::kNone);
+  EXPECT_THAT(machine.notes, ElementsAre("interpolator.kind is now called path.curves"));
+  MachineFile present;
+  ASSERT_TRUE(apply_overrides(
+      present, std::vector<std::string>{"planning.planner=paper", "path.curves=linear"}));
+  EXPECT_EQ(present.path.curves, CurveKind::kNone);
+  EXPECT_THAT(present.notes, IsEmpty());
+}
+
+TEST(Overrides, WhatTheCertifiedPlannerDoesNotHaveMakesThePlannerThePapersWithANote) {
+  for (const char* text :
+       {"path.curves=bezier", "path.curves=linear", "planning.acceleration_profile=s_curve",
+        "planning.acceleration_profile=fir", "planning.feedrate_rule=constant",
+        "planning.feedrate_rule=contact_speed"}) {
+    MachineFile machine;
+    ASSERT_TRUE(apply_overrides(machine, std::vector<std::string>{text}));
+    EXPECT_EQ(machine.path.planner, Planner::kPaper) << text;
+    std::string setting(text);
+    setting.replace(setting.find('='), 1, " = ");
+    EXPECT_THAT(machine.notes,
+                ElementsAre(HasSubstr("planning.planner = paper, because " + setting)));
+  }
+  for (const char* text : {"path.curves=nurbs", "planning.acceleration_profile=trapezoidal",
+                           "planning.feedrate_rule=chord_error"}) {
+    MachineFile machine;
+    ASSERT_TRUE(apply_overrides(machine, std::vector<std::string>{text}));
+    EXPECT_EQ(machine.path.planner, Planner::kCertified) << text;
+    EXPECT_THAT(machine.notes, IsEmpty()) << text;
+  }
+}
+
+TEST(Overrides, AskingForTheCertifiedPlannerAndWhatItDoesNotHaveIsRefused) {
+  MachineFile machine;
+  const auto done = apply_overrides(
+      machine, std::vector<std::string>{"planning.planner=certified", "path.curves=bezier"});
+  ASSERT_FALSE(done);
+  EXPECT_EQ(exit_status(done.error()), 2);
+  EXPECT_THAT(done.error().message,
+              HasSubstr("planning.planner = certified does not have path.curves = bezier"));
+  MachineFile paper;
+  EXPECT_TRUE(apply_overrides(
+      paper, std::vector<std::string>{"planning.planner=paper", "path.curves=bezier"}));
+  EXPECT_THAT(paper.notes, IsEmpty());
 }
 
 TEST(Overrides, LaterOnesWin) {

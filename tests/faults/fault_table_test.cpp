@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Every fault behind the wires, through the program as a user runs it. In simulated time, so that
 // the figures are the same on every machine.

@@ -1,19 +1,24 @@
+#include <algorithm>
+#include <array>
 #include <csignal>
-#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "tests/faults/guard_witness.hpp"
 #include "tests/faults/rig_processes.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // What happens to the outputs when a process of the rig dies, hangs or is told to stop: emulator
 // and controller as two programs on the wall clock, seen from the emulator's log. A system under
-// load stands still by itself for tens of milliseconds; so what has to be quick may be tried a few
-// times.
+// load stands still by itself for tens of milliseconds; so time in which neither the guard nor
+// this process ran is left out (GuardWitness). guard_reaction_test.cpp has the distribution of the
+// guard's reactions.
 namespace twin::test {
 namespace process_faults_test {
 
 using ::testing::HasSubstr;
 
-constexpr int kAttempts = 6;
 constexpr double kInTime = 0.025;  // [s]
 
 /// Patient but for the guard, which waits as long as it does by default.
@@ -28,6 +33,7 @@ class ProcessFault : public ::testing::Test {
  protected:
   /// Begins anew where a system that stood still ended the run before it moved.
   void start(const std::vector<std::string>& more = kPatient) {
+    constexpr int kAttempts = 6;
     for (int i = 0; i < kAttempts; ++i) {
       rig.emplace();
       rig->start_emulator();
@@ -37,6 +43,21 @@ class ProcessFault : public ::testing::Test {
       }
     }
     FAIL() << rig->log() << rig->complaint();
+  }
+  /// Sends the controller a signal that ends or stops it.
+  /// @returns how long the outputs were live after it, by the emulator's log [s]
+  std::optional<double> reaction_to(int signal) {
+    const auto guard = child_of(rig->controller->pid());
+    if (!guard) {
+      return std::nullopt;
+    }
+    const GuardView view(*guard);
+    GuardWitness witness(view);
+    const double fault = monotonic();
+    rig->controller->signal(signal);
+    const auto standstill = witness.standstill_until(fault, [&] { return view.has_acted(); });
+    const auto safe = rig->safe_after(fault);
+    return standstill && safe ? std::optional(*safe - *standstill) : std::nullopt;
   }
   void expect_partial_files() const {
     EXPECT_TRUE(std::filesystem::exists(rig->results() / "trace.partial.csv"));
@@ -49,34 +70,29 @@ class ProcessFault : public ::testing::Test {
 class FatalSignal : public ProcessFault, public ::testing::WithParamInterface<int> {};
 
 TEST_P(FatalSignal, OutputsAreSafeWithinTwentyFiveMilliseconds) {
-  double best = 1.0;
-  for (int i = 0; i < kAttempts && best > kInTime; ++i) {
-    start(with_heartbeats());
-    const double before = monotonic();
-    rig->controller->signal(GetParam());
-    const auto safe = rig->safe_after(before);
-    ASSERT_TRUE(safe) << rig->log();
-    best = std::min(best, *safe);
-    EXPECT_NE(rig->controller->wait().status, 0);  // by the signal, or as a sanitizer has it
-    expect_partial_files();
-  }
-  EXPECT_LE(best, kInTime);
-  RecordProperty("safe_after_ms", std::to_string(best * 1e3));
+  ASSERT_NO_FATAL_FAILURE(start(with_heartbeats()));
+  const auto reaction = reaction_to(GetParam());
+  ASSERT_TRUE(reaction) << rig->log();
+  EXPECT_LE(*reaction, kInTime);
+  RecordProperty("safe_after_ms", std::to_string(*reaction * 1e3));
+  EXPECT_NE(rig->controller->wait().status, 0);  // by the signal, or as a sanitizer has it
+  expect_partial_files();
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, FatalSignal,
                          ::testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGFPE, SIGQUIT),
                          [](const auto& test) { return std::string(sigabbrev_np(test.param)); });
 
+// The heartbeats are waited for most of the time, so a busy machine is late now and then: the median
+// of three counts.
 TEST_F(ProcessFault, ControllerThatHangsIsMadeSafeByTheGuardAndStaysSo) {
-  double best = 1.0;
-  for (int i = 0; i < kAttempts && best > kInTime; ++i) {
-    start(with_heartbeats());
+  std::array<double, 3> reactions{};
+  for (double& reaction : reactions) {
+    ASSERT_NO_FATAL_FAILURE(start(with_heartbeats()));
     const double before = monotonic();
-    rig->controller->signal(SIGSTOP);
-    const auto safe = rig->safe_after(before - 0.001);
-    ASSERT_TRUE(safe) << rig->log();
-    best = std::min(best, *safe);
+    const auto measured = reaction_to(SIGSTOP);
+    ASSERT_TRUE(measured) << rig->log();
+    reaction = *measured;
     rig->controller->signal(SIGCONT);
     const auto result = rig->controller->wait();
     EXPECT_EQ(result.status, 1);
@@ -84,8 +100,9 @@ TEST_F(ProcessFault, ControllerThatHangsIsMadeSafeByTheGuardAndStaysSo) {
     EXPECT_FALSE(rig->time_of("digital outputs 0x0005", before)) << rig->log();
     expect_partial_files();
   }
-  EXPECT_LE(best, kInTime);
-  RecordProperty("safe_after_ms", std::to_string(best * 1e3));
+  std::sort(reactions.begin(), reactions.end());
+  EXPECT_LE(reactions[1], kInTime) << "of " << reactions[0] << " to " << reactions[2] << " s";
+  RecordProperty("safe_after_ms", std::to_string(reactions[1] * 1e3));
 }
 
 class PoliteSignal : public ProcessFault, public ::testing::WithParamInterface<int> {};
@@ -129,13 +146,10 @@ TEST_F(ProcessFault, EmulatorThatEndsIsCardsThatAreGone) {
 
 TEST_F(ProcessFault, WithoutItsGuardTheControllerStops) {
   start();
-  // The guard is the controller's only child.
-  const std::string pid = std::to_string(rig->controller->pid());
-  std::ifstream children("/proc/" + pid + "/task/" + pid + "/children");
-  pid_t guard = 0;
-  ASSERT_TRUE(children >> guard);
+  const auto guard = child_of(rig->controller->pid());
+  ASSERT_TRUE(guard);
   const double before = monotonic();
-  kill(guard, SIGKILL);
+  kill(*guard, SIGKILL);
   const auto result = rig->controller->wait();
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, HasSubstr("the guard process is gone"));

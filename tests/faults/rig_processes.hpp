@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -18,16 +17,10 @@
 
 #include "tests/support/child.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/guard_view.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::test {
-
-/// CLOCK_MONOTONIC [s], the clock of the emulator's log.
-inline double monotonic() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Emulator and controller as two programs on the wall clock.
 class RigProcesses {

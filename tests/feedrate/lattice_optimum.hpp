@@ -5,10 +5,10 @@
 #include <limits>
 #include <vector>
 
-#include "feedrate/limits/limit_zone.hpp"
-#include "feedrate/profile/ramp_limits.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/ramps.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 /// The best of all rises from rest under limits that grow along the way, of those whose jerk is J,
 /// 0 or -J for whole steps of time: an upper bound of the least time, found by exhaustion.
@@ -18,15 +18,15 @@ namespace twin::feedrate::testing {
 /// the other can, so for each pair only the largest distance counts.
 ///
 /// @returns time lost against the last zone's limit all the way, once it is reached with a = 0 [s]
-inline double least_time_lost(const std::vector<LimitZone>& zones, const RampLimits& limits,
-                              double h) {
+inline double least_time_lost(const std::vector<feedrate::LimitZone>& zones,
+                              const feedrate::RampLimits& limits, double h) {
   const double a_unit = limits.jerk * h;
   const double v_unit = 0.5 * limits.jerk * h * h;
   const auto n_a = static_cast<int>(limits.acceleration / a_unit) + 1;
   const double top = zones.back().limit;
   const auto n_v = static_cast<int>(top / v_unit + 1e-9) + 1;
   const auto limit_before = [&](double s) {
-    for (const LimitZone& zone : zones) {
+    for (const feedrate::LimitZone& zone : zones) {
       if (s <= zone.end) {
         return zone.limit;
       }
@@ -86,4 +86,4 @@ inline double least_time_lost(const std::vector<LimitZone>& zones, const RampLim
   return best;
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

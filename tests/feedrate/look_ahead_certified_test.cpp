@@ -1,18 +1,18 @@
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/motion_profile.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
+#include "tests/support/motion_profile.hpp"
 #include "tests/support/plan.hpp"
 #include "tests/support/random_program.hpp"
 
 namespace twin::feedrate {
 namespace look_ahead_certified_test {
 
-using path::testing::line_block;
-using testing::expect_whole;
-using testing::plan;
-using testing::PlanSettings;
-using testing::random_program;
+using test::expect_whole;
+using test::line_block;
+using test::plan;
+using test::PlanSettings;
+using test::random_program;
 
 PlanSettings certified() {
   PlanSettings settings;
@@ -23,7 +23,7 @@ PlanSettings certified() {
 TEST(LookAheadCertified, RandomProgramsArePlannedWholeAndNoSlowerThanByThePaper) {
   std::mt19937 random(1);
   for (int i = 0; i < 400; ++i) {
-    const auto segments = path::testing::build(random_program(random, 25));
+    const auto segments = test::build(random_program(random, 25));
     const auto planned = plan(segments, certified());
     ASSERT_EQ(planned.segments.size(), segments.size());
     ASSERT_NO_FATAL_FAILURE(expect_whole(planned, {})) << "program " << i;

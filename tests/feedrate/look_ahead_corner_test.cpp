@@ -1,17 +1,17 @@
 #include <gtest/gtest.h>
 
-#include "feedrate/limits/corner_limit.hpp"
-#include "tests/feedrate/profile/motion_profile.hpp"
-#include "tests/path/blocks.hpp"
+#include "feedrate/limits/corners.hpp"
+#include "tests/support/motion_profile.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
 namespace look_ahead_corner_test {
 
-using path::testing::arc_block;
-using path::testing::line_block;
-using testing::plan;
-using testing::PlanSettings;
+using test::arc_block;
+using test::line_block;
+using test::plan;
+using test::PlanSettings;
 
 double feedrate_at_end(const PlannedSegment& planned) {
   const Phase& last = planned.phases.back();
@@ -24,7 +24,7 @@ TEST(LookAheadCorner, ARightAngleIsPassedWithinTheAccelerationOfOnePeriod) {
     settings.period = period;
     const auto planned =
         plan({line_block({0, 0, 0}, {20, 0, 0}), line_block({20, 0, 0}, {20, 20, 0})}, settings);
-    testing::expect_whole(planned, settings.limits);
+    test::expect_whole(planned, settings.limits);
     const double v = feedrate_at_end(planned.segments[0]);
     // sqrt(2) times the mean feedrate of the period beside the corner, v + J T^2 / 6, is A T.
     const double by_acceleration =
@@ -49,13 +49,13 @@ TEST(LookAheadCorner, ATangentArcIsNoCorner) {
   const auto line = line_block({0, 0, 0}, {20, 0, 0});
   const auto arc = arc_block({20, 0, 0}, {1, 0, 0}, 15.0, 1.0, true);
   const auto planned = plan({line, arc});
-  testing::expect_whole(planned, {});
+  test::expect_whole(planned, {});
   EXPECT_NEAR(feedrate_at_end(planned.segments[0]), 50.0, 1e-9);
 }
 
 TEST(LookAheadCorner, AReversalIsNearlyAStop) {
   const auto planned = plan({line_block({0, 0, 0}, {20, 0, 0}), line_block({20, 0, 0}, {0, 0, 0})});
-  testing::expect_whole(planned, {});
+  test::expect_whole(planned, {});
   EXPECT_LE(2.0 * feedrate_at_end(planned.segments[0]), 2450.0 * 1e-3 * (1.0 + 1e-4));
 }
 
@@ -64,7 +64,7 @@ TEST(LookAheadCorner, CornersWithinOnePeriodActAsOne) {
   const auto planned =
       plan({line_block({0, 0, 0}, {20, 0, 0}), line_block({20, 0, 0}, {20, 0.001, 0}),
             line_block({20, 0.001, 0}, {0, 0.001, 0})});
-  testing::expect_whole(planned, {});
+  test::expect_whole(planned, {});
   EXPECT_EQ(planned.fallbacks, 0);
   EXPECT_LE(feedrate_at_end(planned.segments[0]), 2450.0 * 1e-3 / 2.0 + 1e-3);
 }

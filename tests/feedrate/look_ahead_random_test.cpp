@@ -1,22 +1,22 @@
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/motion_profile.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
+#include "tests/support/motion_profile.hpp"
 #include "tests/support/plan.hpp"
 #include "tests/support/random_program.hpp"
 
 namespace twin::feedrate {
 namespace look_ahead_random_test {
 
-using testing::expect_whole;
-using testing::plan;
-using testing::PlanSettings;
-using testing::random_program;
+using test::expect_whole;
+using test::plan;
+using test::PlanSettings;
+using test::random_program;
 
 TEST(LookAheadRandom, ProgramsArePlannedWholeWithoutFallbackWhateverTheWindow) {
   std::mt19937 random(1);
   for (int i = 0; i < 400; ++i) {
-    const auto segments = path::testing::build(random_program(random, 25));
+    const auto segments = test::build(random_program(random, 25));
     for (const int window : {2, 10, 200}) {
       PlanSettings settings;
       settings.look_ahead = window;
@@ -32,7 +32,7 @@ TEST(LookAheadRandom, ProgramsArePlannedWholeWithoutFallbackWhateverTheWindow) {
 TEST(LookAheadRandom, ProgramsArePlannedWholeAtAnyPeriod) {
   std::mt19937 random(2);
   for (int i = 0; i < 200; ++i) {
-    const auto segments = path::testing::build(random_program(random, 25));
+    const auto segments = test::build(random_program(random, 25));
     for (const double period : {0.125e-3, 0.5e-3, 4e-3}) {
       PlanSettings settings;
       settings.look_ahead = 20;
@@ -66,7 +66,7 @@ TEST(LookAheadRandom, AShortWindowCostsLittleTime) {
   double sum = 0.0;
   double sum_short = 0.0;
   for (int i = 0; i < 200; ++i) {
-    const auto segments = path::testing::build(random_program(random, 25));
+    const auto segments = test::build(random_program(random, 25));
     PlanSettings settings;
     settings.look_ahead = 1000000;
     const double endless = plan(segments, settings).time;
@@ -93,7 +93,7 @@ TEST(LookAheadRandom, NoPlanIsFasterThanAccelerationAloneAllows) {
       begin += segment.segment.length;
       rests += segment.segment.dwell;
     }
-    const double bound = testing::acceleration_bound(zones, 0.0, 0.0, Limits{}.acceleration, 3000);
+    const double bound = test::acceleration_bound(zones, 0.0, 0.0, Limits{}.acceleration, 3000);
     EXPECT_GE(planned.time - rests, bound) << "program " << i;
   }
 }

@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "feedrate/look_ahead.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
 namespace look_ahead_start_test {
 
-using path::testing::build;
-using path::testing::line_block;
+using test::build;
+using test::line_block;
 
 constexpr double kTau50 = 0.0632455532033676;  // 2 sqrt(50 / 50000), ramp between 0 and 50 mm/s [s]
 

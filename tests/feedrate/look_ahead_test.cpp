@@ -2,17 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
 namespace look_ahead_test {
 
-using path::testing::dwell_block;
-using path::testing::line_block;
-using testing::expect_whole;
-using testing::plan;
-using testing::PlanSettings;
+using test::dwell_block;
+using test::expect_whole;
+using test::line_block;
+using test::plan;
+using test::PlanSettings;
 
 std::vector<Vec3> pieces_of_line(double length, int count) {
   std::vector<Vec3> points;
@@ -31,8 +31,8 @@ TEST(LookAhead, PlansALineAsItsClosedForm) {
 
 TEST(LookAhead, ALineIn2000PiecesTakesAsLongAsTheUncutLine) {
   const double uncut = plan({line_block({0, 0, 0}, {60, 80, 0})}).time;
-  const auto blocks = path::testing::polyline(pieces_of_line(100.0, 2000));
-  const auto curves = path::testing::build(blocks);
+  const auto blocks = test::polyline(pieces_of_line(100.0, 2000));
+  const auto curves = test::build(blocks);
   EXPECT_EQ(curves.size(), 100U);
   std::vector<path::Segment> lines;
   for (const gcode::Block& block : blocks) {
@@ -48,7 +48,7 @@ TEST(LookAhead, ALineIn2000PiecesTakesAsLongAsTheUncutLine) {
 
 TEST(LookAhead, ALineIn2000PiecesTakesAsLongInEveryWindowThatHoldsItsBraking) {
   std::vector<path::Segment> lines;
-  for (const auto& block : path::testing::polyline(pieces_of_line(100.0, 2000))) {
+  for (const auto& block : test::polyline(pieces_of_line(100.0, 2000))) {
     lines.push_back(path::make_segment(block, 0, {}, {}));
   }
   const double uncut = plan({line_block({0, 0, 0}, {60, 80, 0})}).time;
@@ -61,7 +61,7 @@ TEST(LookAhead, ALineIn2000PiecesTakesAsLongInEveryWindowThatHoldsItsBraking) {
 
 TEST(LookAhead, TheSameSegmentsGiveTheSamePhasesWhenever) {
   // One plan watched while it comes, another taken at the end.
-  const auto segments = path::testing::build(path::testing::polyline(pieces_of_line(50.0, 3000)));
+  const auto segments = test::build(test::polyline(pieces_of_line(50.0, 3000)));
   std::vector<double> first;
   PathSettings path;
   path.look_ahead = 20;
@@ -132,7 +132,7 @@ TEST(LookAhead, ARepeatedFeedrateChangesNothingAndAChangedOneIsKeptFromTheBorder
 }
 
 TEST(LookAhead, RampToACornerMayBeLongerThanTheRampToRest) {
-  // From 90 mm/s to 30 mm/s with no acceleration takes 4.16 mm, to rest only 3.82 mm: a knot that
+  // From 90 mm/s to 30 mm/s with no acceleration takes 4.16 mm, to rest only 3.82 mm: a anchor that
   // can just stop before the window's end is too late for a corner there.
   for (const double piece : {0.1, 0.2, 0.4, 0.6}) {
     std::vector<path::Segment> segments{

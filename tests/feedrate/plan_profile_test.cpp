@@ -1,25 +1,28 @@
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/profiles.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 #include "tests/support/random_program.hpp"
+#include "tests/support/s_curve.hpp"
 
 // Acceleration profiles through the whole planner.
 namespace twin::feedrate {
 namespace plan_profile_test {
 
-using testing::kProfiles;
-using testing::PlanSettings;
+using test::kProfiles;
+using test::PlanSettings;
 
 PlanSettings with(AccelerationProfile profile) {
   PlanSettings settings;
   settings.model.acceleration_profile = profile;
+  if (profile != AccelerationProfile::kTrapezoidal) {
+    settings.path.planner = Planner::kPaper;
+  }
   return settings;
 }
 
 /// Distances along the path at every period, rests of two periods at both ends.
-std::vector<double> set_points(const testing::Plan& plan, double period) {
+std::vector<double> set_points(const test::Plan& plan, double period) {
   std::vector<double> points(2, 0.0);
   double begin = 0.0;
   double t = 0.0;  // into the phase
@@ -53,15 +56,15 @@ void expect_limits_of_differences(const std::vector<double>& s, double period,
 TEST(PlanProfile, RandomProgramsKeepEveryLimitAndNeedNoFallback) {
   std::mt19937 random(1);
   for (int i = 0; i < 150; ++i) {
-    const auto blocks = testing::random_program(random, 25);
+    const auto blocks = test::random_program(random, 25);
     for (const AccelerationProfile profile : kProfiles) {
       PlanSettings settings = with(profile);
       settings.look_ahead = i % 3 == 0 ? 2 : i % 3 == 1 ? 20 : 200;
       if (i % 2 == 0) {  // A is reached from a change of 20 mm/s on
         settings.limits.acceleration = 1000.0;
       }
-      const auto planned = testing::plan(blocks, settings);
-      ASSERT_NO_FATAL_FAILURE(testing::expect_whole(planned, settings.limits))
+      const auto planned = test::plan(blocks, settings);
+      ASSERT_NO_FATAL_FAILURE(test::expect_whole(planned, settings.limits))
           << "program " << i << " profile " << static_cast<int>(profile);
       ASSERT_NO_FATAL_FAILURE(
           expect_limits_of_differences(set_points(planned, 1e-3), 1e-3, settings.limits))
@@ -73,9 +76,7 @@ TEST(PlanProfile, RandomProgramsKeepEveryLimitAndNeedNoFallback) {
 }
 
 double time_of_line(double length, double feedrate, AccelerationProfile profile) {
-  return testing::plan({path::testing::line_block({0, 0, 0}, {length, 0, 0}, feedrate)},
-                       with(profile))
-      .time;
+  return test::plan({test::line_block({0, 0, 0}, {length, 0, 0}, feedrate)}, with(profile)).time;
 }
 
 TEST(PlanProfile, RestToRestTakesTheClosedForm) {
@@ -122,12 +123,12 @@ TEST(PlanProfile, NoProfileIsFasterThanTrapezoidalOverRandomPrograms) {
   std::mt19937 random(2);
   std::array<double, 3> sum{};
   for (int i = 0; i < 60; ++i) {
-    auto blocks = testing::random_program(random, 25);
+    auto blocks = test::random_program(random, 25);
     for (gcode::Block& block : blocks) {
       block.feedrate = 200.0;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      sum[k] += testing::plan(blocks, with(kProfiles[k])).time;
+      sum[k] += test::plan(blocks, with(kProfiles[k])).time;
     }
   }
   EXPECT_GT(sum[1], sum[0]);

@@ -77,7 +77,7 @@ bool is_sound(const ProgrammedCurve& programmed, const Block& block) {
 }
 
 bool is_sound(const Block& block) {
-  const ArcGeometry& arc = block.arc;
+  const geometry::Arc& arc = block.arc;
   const bool is_arc = block.motion == Motion::kArc;
   const bool is_nurbs = block.motion == Motion::kNurbs;
   const bool is_feed = is_arc || is_nurbs || block.motion == Motion::kLinear;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "program.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::gcode {
 namespace golden_test {
@@ -17,9 +16,8 @@ namespace fs = std::filesystem;
 const fs::path kGolden = fs::path(TWIN_SOURCE_DIR) / "tests" / "golden" / "gcode";
 
 std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file.is_open()) << path;
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  EXPECT_TRUE(fs::is_regular_file(path)) << path;
+  return test::content(path);
 }
 
 std::vector<fs::path> programs_in(const fs::path& folder) {

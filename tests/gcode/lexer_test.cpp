@@ -11,16 +11,16 @@ namespace lexer_test {
 /// The words of a line as "letter value @column", or the fault as "column: message".
 std::string words_of(std::string_view line) {
   Lexer lexer(line);
-  Word word;
   std::string text;
   while (true) {
-    const auto found = lexer.next(word);
+    const auto found = lexer.next();
     if (!found) {
       return fmt::format("{}: {}", found.error().column, found.error().message);
     }
     if (!*found) {
       return text;
     }
+    const Word& word = **found;
     text += fmt::format("{}{}@{} ", word.letter, word.value, word.column);
   }
 }

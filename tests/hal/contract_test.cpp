@@ -8,18 +8,18 @@
 
 #include "hal/ideal/ideal_machine.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/position_loop.hpp"
-#include "tests/hal/rig/emulated_machine.hpp"
-#include "tests/hal/table_files.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/emulated_machine.hpp"
+#include "tests/support/position_loop.hpp"
+#include "tests/support/table_files.hpp"
 
 // What every machine must do, whatever is behind its wires.
 namespace twin::hal {
 namespace contract_test {
 
-using testing::default_gains;
-using testing::mjcf_file;
-using testing::PlanePoint;
+using test::default_gains;
+using test::mjcf_file;
+using test::PlanePoint;
 
 constexpr double kPeriod = 1e-3;  // [s]
 
@@ -37,10 +37,10 @@ std::unique_ptr<Machine> make_mujoco(const char* model) {
 }
 
 std::unique_ptr<Machine> make_rig() {
-  const mujoco::TableParams table = testing::default_table();
+  const mujoco::TableParams table = test::default_table();
   const rig::RigSettings settings;
-  return rig::testing::make_emulated(
-      table, std::make_shared<rig::emulator::EmulatedRig>(table, settings), settings);
+  return test::make_emulated(table, std::make_shared<rig::emulator::EmulatedRig>(table, settings),
+                             settings);
 }
 
 class MachineContract : public ::testing::TestWithParam<Kind> {
@@ -50,8 +50,8 @@ class MachineContract : public ::testing::TestWithParam<Kind> {
   Outputs outputs;
 
   void start() {
-    ASSERT_TRUE(machine->configure(kPeriod));
-    ASSERT_TRUE(machine->activate());
+    ASSERT_TRUE(checked(machine->configure(kPeriod)));
+    ASSERT_TRUE(checked(machine->activate()));
     outputs.servo_on = {true, true};
   }
 };
@@ -66,39 +66,39 @@ TEST_P(MachineContract, NamesItselfAndItsScales) {
 }
 
 TEST_P(MachineContract, RefusesToBeUsedBeforeItIsConfigured) {
-  EXPECT_FALSE(machine->activate());
+  EXPECT_FALSE(checked(machine->activate()));
   EXPECT_EQ(machine->read(inputs), Status::kError);
   EXPECT_FALSE(machine->last_error().empty());
   EXPECT_EQ(machine->write(outputs), Status::kError);
   machine->deactivate();
   machine->cleanup();
-  EXPECT_TRUE(machine->configure(kPeriod));
+  EXPECT_TRUE(checked(machine->configure(kPeriod)));
   EXPECT_TRUE(machine->last_error().empty());
 }
 
 TEST_P(MachineContract, RefusesPeriodsThatAreNone) {
   for (const double period : {0.0, -1e-3, std::numeric_limits<double>::quiet_NaN()}) {
-    const Expected<void> result = machine->configure(period);
+    const Expected<void> result = checked(machine->configure(period));
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kMachine);
   }
 }
 
 TEST_P(MachineContract, RefusesOutputsWhileInactive) {
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   EXPECT_EQ(machine->write(outputs), Status::kError);
   EXPECT_FALSE(machine->last_error().empty());
-  EXPECT_TRUE(machine->activate());
+  EXPECT_TRUE(checked(machine->activate()));
   EXPECT_EQ(machine->write(outputs), Status::kOk);
 }
 
 TEST_P(MachineContract, ActivatesOnceAtATime) {
   start();
-  EXPECT_FALSE(machine->activate());
-  EXPECT_FALSE(machine->configure(kPeriod));
+  EXPECT_FALSE(checked(machine->activate()));
+  EXPECT_FALSE(checked(machine->configure(kPeriod)));
   machine->deactivate();
   machine->deactivate();
-  EXPECT_TRUE(machine->activate());
+  EXPECT_TRUE(checked(machine->activate()));
 }
 
 TEST_P(MachineContract, ActivationIsZeroCounts) {
@@ -125,8 +125,8 @@ TEST_P(MachineContract, IsReadySoonAfterServoOnAndNotBefore) {
 }
 
 TEST_P(MachineContract, GoesWhereTheLoopSendsIt) {
-  const auto rows = testing::run_loop(*machine, default_gains(), kPeriod, 1.0, [](double t) {
-    const auto s = testing::smooth_start(std::min(t, 0.5), 20.0, 0.2);
+  const auto rows = test::run_loop(*machine, default_gains(), kPeriod, 1.0, [](double t) {
+    const auto s = test::smooth_start(std::min(t, 0.5), 20.0, 0.2);
     PlanePoint point;
     point.position[0] = s.value;
     point.position[1] = -0.5 * s.value;
@@ -149,7 +149,7 @@ TEST_P(MachineContract, NotANumberStopsItAndActivationRecoversIt) {
   EXPECT_FALSE(machine->last_error().empty());
   outputs.volts[kY] = 0.0;
   EXPECT_EQ(machine->write(outputs), Status::kError) << "a stopped machine is inactive";
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->activate()));
   EXPECT_TRUE(machine->last_error().empty());
   EXPECT_EQ(machine->read(inputs), Status::kOk);
 }
@@ -157,24 +157,24 @@ TEST_P(MachineContract, NotANumberStopsItAndActivationRecoversIt) {
 TEST_P(MachineContract, CleanupForgetsWhereItWas) {
   const auto there = [](double t) {
     PlanePoint point;
-    point.position[0] = testing::smooth_start(t, 10.0, 0.1).value;
+    point.position[0] = test::smooth_start(t, 10.0, 0.1).value;
     return point;
   };
-  const auto first = testing::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
+  const auto first = test::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
   machine->cleanup();
-  const auto second = testing::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
+  const auto second = test::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
   EXPECT_EQ(first, second);
 }
 
 TEST_P(MachineContract, TwoMachinesInOneProcessDoNotDisturbEachOther) {
   const auto there = [](double t) {
-    return testing::on_circle(5.0, testing::smooth_start(t, 30.0, 0.1));
+    return test::on_circle(5.0, test::smooth_start(t, 30.0, 0.1));
   };
-  const auto alone = testing::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
+  const auto alone = test::run_loop(*machine, default_gains(), kPeriod, 0.3, there);
   const std::unique_ptr<Machine> other = GetParam().make();
-  ASSERT_TRUE(other->configure(kPeriod));
+  ASSERT_TRUE(checked(other->configure(kPeriod)));
   machine->cleanup();
-  const auto beside = testing::run_loop(*machine, default_gains(), kPeriod, 0.3, [&](double t) {
+  const auto beside = test::run_loop(*machine, default_gains(), kPeriod, 0.3, [&](double t) {
     EXPECT_EQ(other->read(inputs), Status::kOk);
     return there(t);
   });
@@ -183,7 +183,7 @@ TEST_P(MachineContract, TwoMachinesInOneProcessDoNotDisturbEachOther) {
 
 TEST_P(MachineContract, ReadAndWriteAllocateNothing) {
   start();
-  const std::int64_t before = testing::allocations();
+  const std::int64_t before = test::allocations();
   int failures = 0;
   for (int k = 0; k < 200; ++k) {
     failures += machine->read(inputs) != Status::kOk;
@@ -191,7 +191,7 @@ TEST_P(MachineContract, ReadAndWriteAllocateNothing) {
     failures += machine->write(outputs) != Status::kOk;
     failures += !std::isfinite(machine->truth().table_position[kX]);
   }
-  EXPECT_EQ(testing::allocations() - before, 0);
+  EXPECT_EQ(test::allocations() - before, 0);
   EXPECT_EQ(failures, 0);
 }
 
@@ -205,8 +205,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(IdealMachine, TruthIsTheReferenceOfTheSamePeriod) {
   ideal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs;
   Inputs inputs;
   for (int k = 1; k < 10; ++k) {

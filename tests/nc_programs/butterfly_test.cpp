@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "nc_file.hpp"
+#include "tests/support/nc_file.hpp"
 
 namespace twin::programs {
 namespace butterfly_test {

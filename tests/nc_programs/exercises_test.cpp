@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "nc_file.hpp"
+#include "tests/support/nc_file.hpp"
 
-namespace twin::programs::test {
+namespace twin::test {
 namespace exercises_test {
 
 constexpr double kTravel = 190.0;  // [mm]
@@ -87,4 +87,4 @@ TEST(EveryProgram, KeepsToTheTravelAndEndsWithM30) {
 }
 
 }  // namespace exercises_test
-}  // namespace twin::programs::test
+}  // namespace twin::test

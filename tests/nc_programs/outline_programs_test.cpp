@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "nc_file.hpp"
+#include "tests/support/nc_file.hpp"
 
-namespace twin::programs::test {
+namespace twin::test {
 namespace outline_programs_test {
 
 /// Figures of one program: Table 1 of the paper (blocks and lengths) and what the outline was made
@@ -160,4 +160,4 @@ INSTANTIATE_TEST_SUITE_P(Table1, OutlineProgram,
                          });
 
 }  // namespace outline_programs_test
-}  // namespace twin::programs::test
+}  // namespace twin::test

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "nc_file.hpp"
 #include "nc_programs/generate/programs.hpp"
+#include "tests/support/nc_file.hpp"
 
 namespace twin::programs {
 namespace regenerate_test {

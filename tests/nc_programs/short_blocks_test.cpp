@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nc_file.hpp"
+#include "tests/support/nc_file.hpp"
 
-namespace twin::programs::test {
+namespace twin::test {
 namespace short_blocks_test {
 
 TEST(Zigzag, Has1000BlocksOfATenthAndOnlyRightAngles) {
@@ -59,10 +59,10 @@ TEST(Gear, NoBlockIsLongerThanAQuarterOfAMillimetreButTheWayThereAndBack) {
 }
 
 TEST(Trochoid, Has200000BlocksOfATenth) {
-  const std::string text = trochoid_program().text;
+  const std::string text = programs::trochoid_program().text;
   EXPECT_EQ(std::count(text.begin(), text.end(), 'X'), 200000 + 1);  // and one in the comment
   EXPECT_LT(text.size(), 4'000'000U);
 }
 
 }  // namespace short_blocks_test
-}  // namespace twin::programs::test
+}  // namespace twin::test

@@ -1,21 +1,21 @@
 #include <gtest/gtest.h>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace arc_segment_test {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The definition in gcode/block.hpp, word by word.
-Vec3 defined_place(const gcode::ArcGeometry& g, double f) {
+/// The definition in geometry/arc.hpp, word by word.
+Vec3 defined_place(const geometry::Arc& g, double f) {
   const double a = f * g.sweep;
   return g.centre + (g.radius + f * g.radius_change) * (std::cos(a) * g.e1 + std::sin(a) * g.e2) +
          f * g.rise * g.e1.cross(g.e2);
 }
 
 /// Length of the polygon through `count` + 1 places from f = 0 to 1, Richardson-extrapolated.
-double measured_length(const gcode::ArcGeometry& g, double f_end = 1.0) {
+double measured_length(const geometry::Arc& g, double f_end = 1.0) {
   const auto polygon = [&](int count) {
     double length = 0.0;
     for (int i = 0; i < count; ++i) {
@@ -27,7 +27,7 @@ double measured_length(const gcode::ArcGeometry& g, double f_end = 1.0) {
   return (4.0 * polygon(4000) - polygon(2000)) / 3.0;
 }
 
-gcode::ArcGeometry random_arc(std::mt19937& random) {
+geometry::Arc random_arc(std::mt19937& random) {
   std::uniform_real_distribution<double> part(0.0, 1.0);
   const Vec3 e1 = Vec3(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized();
   const Vec3 e2 = e1.cross(Vec3(part(random), part(random), 1.0 + part(random))).normalized();
@@ -70,7 +70,7 @@ TEST(Arc, TurningClockwiseDescendsWithNegativeAxis) {
 TEST(Arc, WithChangingRadiusHasTheLengthOfItsPolygon) {
   std::mt19937 random(2);
   for (int i = 0; i < 40; ++i) {
-    const gcode::ArcGeometry g = random_arc(random);
+    const geometry::Arc g = random_arc(random);
     const Arc arc = make_arc(g);
     EXPECT_NEAR(arc.length, measured_length(g), 2e-9 * arc.length);
   }
@@ -79,7 +79,7 @@ TEST(Arc, WithChangingRadiusHasTheLengthOfItsPolygon) {
 TEST(Arc, IsMeasuredByArcLengthAlongTheDefinedPlaces) {
   std::mt19937 random(3);
   for (int i = 0; i < 40; ++i) {
-    const gcode::ArcGeometry g = random_arc(random);
+    const geometry::Arc g = random_arc(random);
     const Arc arc = make_arc(g);
     EXPECT_LT((point_at(arc, 0.0).position - defined_place(g, 0.0)).norm(), 1e-13 * g.radius);
     EXPECT_LT((point_at(arc, arc.length).position - defined_place(g, 1.0)).norm(),

@@ -1,15 +1,15 @@
 #include <gtest/gtest.h>
 
-#include "blocks.hpp"
 #include "gcode/programmed_curve.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace nurbs_block_test {
 
-using testing::build;
-using testing::circle_points;
-using testing::is_curve;
-using testing::polyline;
+using test::build;
+using test::circle_points;
+using test::is_curve;
+using test::polyline;
 
 gcode::Block nurbs_block(int degree, std::vector<double> knots, std::vector<Vec3> points) {
   gcode::Block block;

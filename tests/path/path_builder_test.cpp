@@ -4,19 +4,19 @@
 
 #include <algorithm>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace path_builder_test {
 
-using testing::arc_block;
-using testing::build;
-using testing::circle_points;
-using testing::dwell_block;
-using testing::is_curve;
-using testing::is_line;
-using testing::line_block;
-using testing::polyline;
+using test::arc_block;
+using test::build;
+using test::circle_points;
+using test::dwell_block;
+using test::is_curve;
+using test::is_line;
+using test::line_block;
+using test::polyline;
 
 /// Every block once and in order, and the marks of each segment ascending to its end.
 void expect_all_blocks(const std::vector<Segment>& segments, std::size_t count) {
@@ -106,7 +106,7 @@ TEST(PathBuilder, MakesCurvesOfAtMostMaxSegmentsOfRunsOfAnyLength) {
 TEST(PathBuilder, TakesEachBlockOnceAndInOrderWhateverTheInput) {
   std::mt19937 random(7);
   for (int i = 0; i < 60; ++i) {
-    auto blocks = polyline(testing::random_walk(random, 200, 0.003, 2.0, 0.1 * (i % 12)),
+    auto blocks = polyline(test::random_walk(random, 200, 0.003, 2.0, 0.1 * (i % 12)),
                            i % 2 == 0 ? 2.0 : 40.0);
     for (gcode::Block& block : blocks) {
       block.path_mode =

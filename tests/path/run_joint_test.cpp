@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace run_joint_test {
 
-using testing::build;
-using testing::is_curve;
-using testing::polyline;
+using test::build;
+using test::is_curve;
+using test::polyline;
 
 /// Joints of successive curves: position, tangent and curvature (with its direction) the same on
 /// both sides.
@@ -87,7 +87,7 @@ TEST(RunJoint, LinearInterpolatorFitsNothing) {
   PathSettings settings;
   settings.curves = CurveKind::kNone;
   for (const Segment& segment : build(polyline(wavy_points()), settings)) {
-    EXPECT_TRUE(testing::is_line(segment));
+    EXPECT_TRUE(test::is_line(segment));
   }
 }
 

@@ -3,17 +3,17 @@
 #include <algorithm>
 
 #include "path/short_block.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::path {
 namespace run_tolerance_test {
 
-using testing::build;
-using testing::distance_to;
-using testing::is_curve;
-using testing::is_line;
-using testing::polyline;
-using testing::random_walk;
+using test::build;
+using test::distance_to;
+using test::is_curve;
+using test::is_line;
+using test::polyline;
+using test::random_walk;
 
 /// Largest distance of the curves from the chords of their own blocks, by dense sampling [mm].
 double worst_deviation(const std::vector<Segment>& segments, const std::vector<Vec3>& points) {

@@ -8,13 +8,13 @@
 namespace twin::path {
 namespace smooth_fuzz_test {
 
-using testing::arc_block;
-using testing::expect_marks;
-using testing::expect_smooth_joints;
-using testing::expect_within_bounds;
-using testing::is_finite;
-using testing::line_block;
-using testing::smooth;
+using test::arc_block;
+using test::expect_marks;
+using test::expect_smooth_joints;
+using test::expect_within_bounds;
+using test::is_finite;
+using test::line_block;
+using test::smooth;
 
 double uniform(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);

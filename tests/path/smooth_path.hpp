@@ -8,19 +8,21 @@
 #include <utility>
 #include <vector>
 
-#include "gcode/arc.hpp"
+#include "geometry/arc.hpp"
 #include "path/smooth_builder.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 /// A smoothed path held against its program by dense sampling.
-namespace twin::path::testing {
+namespace twin::test {
 
-inline std::vector<Segment> smooth(const std::vector<gcode::Block>& blocks,
-                                   const PathSettings& settings = {},
-                                   const PlanningModel& model = {}, const Limits& limits = {}) {
-  std::vector<Segment> segments;
-  SmoothBuilder builder(settings, model, limits,
-                        [&](Segment&& segment) { segments.push_back(std::move(segment)); });
+inline std::vector<path::Segment> smooth(const std::vector<gcode::Block>& blocks,
+                                         const PathSettings& settings = {},
+                                         const PlanningModel& model = {},
+                                         const Limits& limits = {}) {
+  std::vector<path::Segment> segments;
+  path::SmoothBuilder builder(settings, model, limits, [&](path::Segment&& segment) {
+    segments.push_back(std::move(segment));
+  });
   for (const gcode::Block& block : blocks) {
     builder.push(block);
   }
@@ -29,15 +31,15 @@ inline std::vector<Segment> smooth(const std::vector<gcode::Block>& blocks,
 }
 
 /// Place of a segment at arc length s.
-inline PathPoint place(const Segment& segment, double s) {
-  if (const auto* curve = std::get_if<FittedCurve>(&segment.geometry)) {
-    return point_from(curve->curve.derivatives(curve->arc_length.u_at(curve->curve, s, s)));
+inline path::PathPoint place(const path::Segment& segment, double s) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+    return path::point_from(curve->curve.derivatives(curve->arc_length.u_at(curve->curve, s, s)));
   }
-  if (const auto* arc = std::get_if<Arc>(&segment.geometry)) {
-    return point_at(*arc, s);
+  if (const auto* arc = std::get_if<path::Arc>(&segment.geometry)) {
+    return path::point_at(*arc, s);
   }
-  if (const auto* line = std::get_if<Line>(&segment.geometry)) {
-    return point_at(*line, s);
+  if (const auto* line = std::get_if<path::Line>(&segment.geometry)) {
+    return path::point_at(*line, s);
   }
   return segment.begin;
 }
@@ -48,16 +50,16 @@ inline std::vector<Vec3> program_points(const gcode::Block& block, int count) {
   for (int i = 0; i <= count; ++i) {
     const double f = static_cast<double>(i) / count;
     points.push_back(block.motion == gcode::Motion::kArc
-                         ? gcode::point_at(block.arc, f)
+                         ? geometry::point_at(block.arc, f)
                          : Vec3(block.start + f * (block.end - block.start)));
   }
   return points;
 }
 
 /// Points of a path, several a span.
-inline std::vector<Vec3> path_points(const Segment& segment) {
+inline std::vector<Vec3> path_points(const path::Segment& segment) {
   std::vector<Vec3> points;
-  if (const auto* curve = std::get_if<FittedCurve>(&segment.geometry)) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     const std::vector<double>& u = curve->curve.knots();
     for (std::size_t k = 0; k + 1 < u.size(); ++k) {
       for (int i = 0; i < 32 && u[k] < u[k + 1]; ++i) {
@@ -90,7 +92,7 @@ inline double distance_to_block(const Vec3& p, const gcode::Block& block) {
     return distance_to(p, block.start, block.end);
   }
   constexpr int kSteps = 300;
-  const auto away = [&](double f) { return (p - gcode::point_at(block.arc, f)).norm(); };
+  const auto away = [&](double f) { return (p - geometry::point_at(block.arc, f)).norm(); };
   int best = 0;
   for (int i = 1; i <= kSteps; ++i) {
     best = away(1.0 * i / kSteps) < away(1.0 * best / kSteps) ? i : best;
@@ -107,9 +109,9 @@ inline double distance_to_block(const Vec3& p, const gcode::Block& block) {
 
 /// Rounding of the curvature of a segment: that of its coordinates over the square of its narrowest
 /// span [1/mm].
-inline double curvature_rounding(const Segment& segment) {
+inline double curvature_rounding(const path::Segment& segment) {
   double rounding = 1e-9;
-  if (const auto* curve = std::get_if<FittedCurve>(&segment.geometry)) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     const std::vector<double>& u = curve->curve.knots();
     for (std::size_t k = 1; k < u.size(); ++k) {
       const double w = u[k] - u[k - 1];
@@ -122,10 +124,10 @@ inline double curvature_rounding(const Segment& segment) {
 }
 
 /// Position, tangent and curvature go on from one segment to the next, unless the path rests.
-inline void expect_smooth_joints(const std::vector<Segment>& segments) {
+inline void expect_smooth_joints(const std::vector<path::Segment>& segments) {
   for (std::size_t i = 1; i < segments.size(); ++i) {
-    const Segment& a = segments[i - 1];
-    const Segment& b = segments[i];
+    const path::Segment& a = segments[i - 1];
+    const path::Segment& b = segments[i];
     ASSERT_LT((a.end.position - b.begin.position).norm(), 1e-9) << "joint " << i;
     if (a.stops_at_end || b.stops_at_end || a.length == 0.0 || b.length == 0.0) {
       continue;
@@ -138,12 +140,12 @@ inline void expect_smooth_joints(const std::vector<Segment>& segments) {
 }
 
 /// Every block has a mark, in order, and the marks of each segment ascend to its end.
-inline void expect_marks(const std::vector<Segment>& segments, std::int64_t count) {
+inline void expect_marks(const std::vector<path::Segment>& segments, std::int64_t count) {
   std::int64_t last = -1;
-  for (const Segment& segment : segments) {
+  for (const path::Segment& segment : segments) {
     double before = 0.0;
     ASSERT_FALSE(segment.marks.empty());
-    for (const BlockMark& mark : segment.marks) {
+    for (const path::BlockMark& mark : segment.marks) {
       ASSERT_TRUE(mark.block == last || mark.block == last + 1) << mark.block << " after " << last;
       ASSERT_GE(mark.end, before);
       last = mark.block;
@@ -154,7 +156,7 @@ inline void expect_marks(const std::vector<Segment>& segments, std::int64_t coun
   ASSERT_EQ(last, count - 1);
 }
 
-inline bool is_finite(const Segment& segment) {
+inline bool is_finite(const path::Segment& segment) {
   return std::isfinite(segment.length) && segment.begin.position.allFinite() &&
          segment.end.position.allFinite() && segment.begin.tangent.allFinite() &&
          segment.end.tangent.allFinite() && segment.begin.curvature.allFinite() &&
@@ -163,11 +165,11 @@ inline bool is_finite(const Segment& segment) {
 
 /// Distance of a segment from the blocks around it, both ways, is within its bound, and the bound
 /// within the tolerance.
-inline void expect_within_bounds(const std::vector<Segment>& segments,
+inline void expect_within_bounds(const std::vector<path::Segment>& segments,
                                  const std::vector<gcode::Block>& blocks, double tolerance,
                                  double rounding = 1e-7) {
   for (std::size_t n = 0; n < segments.size(); ++n) {
-    const Segment& segment = segments[n];
+    const path::Segment& segment = segments[n];
     ASSERT_LE(segment.deviation, tolerance * (1.0 + 1e-9)) << "segment " << n;
     // The blocks of the marks, and a millimetre's thousandth and a block more on either side.
     auto first = static_cast<std::size_t>(segment.marks.front().block);
@@ -197,7 +199,7 @@ inline void expect_within_bounds(const std::vector<Segment>& segments,
       path.insert(path.end(), more.begin(), more.end());
       bound = std::max(bound, segments[k].deviation);
     }
-    for (const BlockMark& mark : segments[n].marks) {
+    for (const path::BlockMark& mark : segments[n].marks) {
       const bool is_inside =
           (n == 0 || segments[n - 1].marks.back().block != mark.block) &&
           (n + 1 == segments.size() || segments[n + 1].marks.front().block != mark.block);
@@ -210,4 +212,4 @@ inline void expect_within_bounds(const std::vector<Segment>& segments,
   }
 }
 
-}  // namespace twin::path::testing
+}  // namespace twin::test

@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/position_loop.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/position_loop.hpp"
+#include "tests/support/table_files.hpp"
 
 // A circle at constant feedrate on the table without friction, quantisation and drive lag, against
 // Eq. 3.
@@ -36,7 +36,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 TableParams near_ideal_table() {
-  TableParams params = testing::faultless_table();
+  TableParams params = test::faultless_table();
   params.physics_step = kStep;
   for (AxisParams& axis : params.axis) {
     axis.drive.velocity_gain_Hz = kGain_Hz;
@@ -48,17 +48,16 @@ TableParams near_ideal_table() {
 /// Programmed radius less the mean radius of the last turn [mm].
 double measured_error(const Case& c) {
   MujocoMachine machine(near_ideal_table());
-  const motion::Gains gains = testing::gains(c.kp, c.kf, 0.0);
+  const motion::Gains gains = test::gains(c.kp, c.kf, 0.0);
   const double turn = 2.0 * std::numbers::pi / c.omega();
   const double settled = 0.2 + 12.0 / c.kp;  // ramp, then 12 time constants of the loop [s]
-  const auto rows =
-      testing::run_loop(machine, {gains, gains}, c.period, settled + turn, [&](double t) {
-        return testing::on_circle(c.radius, testing::smooth_start(t, c.speed, 0.2));
-      });
+  const auto rows = test::run_loop(
+      machine, {gains, gains}, c.period, settled + turn,
+      [&](double t) { return test::on_circle(c.radius, test::smooth_start(t, c.speed, 0.2)); });
   const auto count = static_cast<std::size_t>(std::lround(turn / c.period));
   double sum = 0.0;
   for (std::size_t i = rows.size() - count; i < rows.size(); ++i) {
-    sum -= testing::circle_error(rows[i], c.radius);
+    sum -= test::circle_error(rows[i], c.radius);
   }
   return sum / static_cast<double>(count);
 }

@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 // The table's velocity after a step of the drive command, without friction and disturbance.
 namespace twin::hal::mujoco {
@@ -57,7 +57,7 @@ double closed_form(const Case& c, double t) {
 class VelocityStep : public ::testing::TestWithParam<Case> {};
 
 TEST_P(VelocityStep, FollowsItsClosedFormWithinOnePercentOfTheFinalValue) {
-  TableParams params = testing::faultless_table();
+  TableParams params = test::faultless_table();
   params.physics_step = 1e-5;
   for (AxisParams& axis : params.axis) {
     axis.drive.velocity_gain_Hz = GetParam().gain_Hz;
@@ -67,8 +67,8 @@ TEST_P(VelocityStep, FollowsItsClosedFormWithinOnePercentOfTheFinalValue) {
   }
   const double period = 1e-4;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(period));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(period)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs;
   outputs.servo_on = {true, true};
   outputs.volts = {0.1, -0.1};

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 // Friction of the whole table at rest and about to move, servo off: MuJoCo's slide and the bristle
 // together.
@@ -20,12 +20,12 @@ double breakaway(const AxisParams& axis) {
 
 class PushedTable : public ::testing::TestWithParam<Axis> {
  protected:
-  TableParams params = testing::default_table();
+  TableParams params = test::default_table();
   MujocoMachine machine{params};
   Axis axis = GetParam();
   double held = breakaway(params.axis[GetParam()]);  // breakaway force [N]
 
-  void SetUp() override { ASSERT_TRUE(machine.configure(kPeriod)); }
+  void SetUp() override { ASSERT_TRUE(checked(machine.configure(kPeriod))); }
 
   void pass(double seconds, double force) {
     Inputs inputs;
@@ -103,7 +103,7 @@ TEST_P(PushedTable, TerminalSpeedIsWhereFrictionBalancesThePush) {
   TableParams slippery = params;
   slippery.axis[axis].friction.viscous = 1.0;  // N s/mm, so that it settles soon
   MujocoMachine sliding(slippery);
-  ASSERT_TRUE(sliding.configure(kPeriod));
+  ASSERT_TRUE(checked(sliding.configure(kPeriod)));
   sliding.set_external_force(axis, friction.coulomb + 50.0);
   Inputs inputs;
   for (int k = 0; k < 1000; ++k) {

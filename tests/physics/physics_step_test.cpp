@@ -1,4 +1,4 @@
-#include "tests/closed_loop/loop_fixture.hpp"
+#include "tests/support/loop_fixture.hpp"
 
 // Whole programs on the table: what they report must not hang on how finely time is cut.
 namespace twin {
@@ -6,18 +6,18 @@ namespace physics_step_test {
 
 class PhysicsStep : public test::LoopTest, public ::testing::WithParamInterface<const char*> {
  protected:
-  results::MachineFigures run_with(double share_of_step) const {
+  results::MachineResults run_with(double share_of_step) const {
     config::MachineFile file = machine();
     file.table.physics_step *= share_of_step;
     hal::mujoco::MujocoMachine table(file.table);
     return execute(program(GetParam()), file, &table, std::nullopt)
-        .run.value_or(results::MachineFigures());
+        .run.value_or(results::MachineResults());
   }
 };
 
 TEST_P(PhysicsStep, HalvedChangesNoRmsByOneAndAHalfPercent) {
-  const results::MachineFigures coarse = run_with(1.0);
-  const results::MachineFigures fine = run_with(0.5);
+  const results::MachineResults coarse = run_with(1.0);
+  const results::MachineResults fine = run_with(0.5);
   ASSERT_GT(fine.contour_error.rms, 0.0);
   EXPECT_NEAR(coarse.contour_error.rms / fine.contour_error.rms, 1.0, 0.015);
   for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -5,7 +5,7 @@
 #include "core/units.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "hal/mujoco/table_physics.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 // Steady sliding at constant velocity: the motor's torque is what friction takes.
 namespace twin::hal::mujoco {
@@ -44,7 +44,7 @@ class DrivenAxis {
 class SteadySliding : public ::testing::TestWithParam<Axis> {};
 
 TEST_P(SteadySliding, ForceFollowsTheStribeckFormulaWithinOnePercent) {
-  TableParams params = testing::default_table();
+  TableParams params = test::default_table();
   AxisParams& axis = params.axis[GetParam()];
   axis.drive.hum_amplitude = 0.0;  // constant velocity
   axis.dac_bits = 40;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "runtime/clock.hpp"
+#include "runtime/pacer.hpp"
 
 namespace twin::test {
 

@@ -2,9 +2,9 @@
 
 #include "runtime/motion.hpp"
 #include "tests/realtime/fake_clock.hpp"
-#include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/planned.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/fake_machine.hpp"
+#include "tests/support/planned.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Motion on a wall clock that is late on purpose.
 namespace twin::runtime {
@@ -23,10 +23,11 @@ struct LatePeriods : public ::testing::Test {
     motion::Interpolator interpolator(segments, 1e-3);
     Cycle cycle(interpolator, &machine, gains, 1e-3);
     clock.lateness = lateness;
-    pace.is_wall_clock = true;
-    pace.settle_time = 0.01;
-    pace.clock = &clock;
-    return run_motion(cycle, interpolator, segments, samples, limits, pace, stop);
+    WallClockPace::Options options = pace;
+    options.schedule = machine.info().keeps_own_time ? Schedule::kKept : Schedule::kShifted;
+    WallClockPace wall_clock(segments, clock, options);
+    return run_motion(cycle, interpolator, segments, samples, wall_clock,
+                      {.rest_before = 0.01, .limits = limits}, stop);
   }
 
   /// Positions in X of all periods.
@@ -42,7 +43,7 @@ struct LatePeriods : public ::testing::Test {
   std::array<motion::Gains, hal::kServoAxes> gains{};
   test::FakeClock clock;
   test::FakeMachine machine;
-  Pace pace;
+  WallClockPace::Options pace;
   SampleQueue samples{100000};
   std::atomic<bool> stop{false};
 };

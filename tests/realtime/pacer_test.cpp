@@ -93,7 +93,7 @@ TEST_F(PacerTest, OnlyLatePeriodsInARowAreAnOverrun) {
   ASSERT_TRUE(pacer.overrun());
   EXPECT_EQ(pacer.overrun()->kind, motion::Kind::kLatePeriods);
   EXPECT_EQ(pacer.overrun()->value, 3.0);
-  EXPECT_EQ(pacer.overrun()->reaction, motion::Reaction::kControlled);
+  EXPECT_EQ(reaction_to(pacer.overrun()->kind), motion::Reaction::kControlled);
 }
 
 TEST_F(PacerTest, OneStallIsAnOverrun) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -8,9 +9,10 @@
 #include <thread>
 
 #include "runtime/motion.hpp"
-#include "runtime/program_planner.hpp"
-#include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "runtime/planning_loop.hpp"
+#include "tests/support/fake_machine.hpp"
+#include "tests/support/planned.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // On the wall clock the machine waits for nothing. A planner that falls behind makes it brake on
 // the path and go on later; the set points of all periods, pauses included, are held against the
@@ -49,6 +51,52 @@ std::vector<double> along_circle(const std::vector<Vec3>& points) {
   return s;
 }
 
+/// What other threads may know of a machine: its periods, and whether it moves.
+class Progress {
+ public:
+  explicit Progress(test::FakeMachine& machine) {
+    machine.on_write = [this, &machine](std::int64_t) {
+      const auto& at = machine.references;
+      const bool moves = at.size() > 1 && at.back() != at[at.size() - 2];
+      moved_ = moved_ + (moves ? 1 : 0);
+      at_rest_ = moves ? 0 : at_rest_ + 1;
+      ++periods_;
+    };
+  }
+
+  std::int64_t periods() const { return periods_; }
+
+  /// Waits until the machine has moved since the last such wait and then come to rest.
+  void wait_for_rest() {
+    constexpr int kRest = 5;  // [periods]
+    EXPECT_TRUE(becomes([&] { return moved_ > moved_before_ && at_rest_ >= kRest; }));
+    moved_before_ = moved_;
+  }
+
+  /// Waits until a number of periods have begun. @returns false when told to give up
+  bool wait_for_period(std::int64_t number, const std::stop_token& gives_up) const {
+    EXPECT_TRUE(becomes([&] { return periods_ >= number || gives_up.stop_requested(); }));
+    return periods_ >= number;
+  }
+
+ private:
+  /// However busy the computer is: a minute.
+  static bool becomes(const std::function<bool()>& is_so) {
+    for (int i = 0; i < 60000; ++i) {
+      if (is_so()) {
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+  }
+
+  std::atomic<std::int64_t> periods_{0};
+  std::atomic<std::int64_t> moved_{0};
+  std::atomic<std::int64_t> at_rest_{0};
+  std::int64_t moved_before_ = 0;
+};
+
 /// Plans the circle, as slowly as is told, past a motion on the wall clock.
 struct SlowRun {
   explicit SlowRun(int buffer)
@@ -57,21 +105,22 @@ struct SlowRun {
   }
 
   MotionEnd run(const std::function<void(std::int64_t)>& before_segment, SampleQueue& to) {
-    auto reader = gcode::Reader::from_text(circle_in_arcs(), "text");
     const std::jthread planning([&] {
-      ProgramPlanner planner(reader, machine_file, segments, &link);
-      planner.before_segment = before_segment;
-      EXPECT_TRUE(planner.run());
-      link.break_off();
+      ProgramPlanner planner(test::blocks_of(circle_in_arcs()), machine_file,
+                             ProgramPlanner::Replans::kOnRequest);
+      PlanningLoop loop(planner, segments, link, machine_file.path.look_ahead);
+      loop.before_segment = before_segment;
+      EXPECT_TRUE(loop.run());
     });
-    Pace pace;
-    pace.is_wall_clock = true;
-    pace.settle_time = 0.01;
-    pace.realtime.max_late_periods = 1000000;  // however busy the computer is
-    pace.realtime.max_stall = 1000.0;
-    pace.feed = &feed;
+    WallClockPace::Options options;
+    options.realtime.max_late_periods = 1000000;  // however busy the computer is
+    options.realtime.max_stall = 1000.0;
+    MonotonicClock clock;
+    WallClockPace pace(segments, clock, options);
     const MotionEnd end =
-        run_motion(cycle, interpolator, segments, to, machine_file.limits, pace, stop).end;
+        run_motion(cycle, interpolator, segments, to, pace,
+                   {.rest_before = 0.01, .limits = machine_file.limits, .feed = &feed}, stop)
+            .end;
     segments.stop();
     return end;
   }
@@ -99,12 +148,13 @@ struct SlowRun {
                    segments,
                    link,
                    panel,
-                   {{},
-                    {machine_file.limits.acceleration, machine_file.limits.jerk},
-                    1e-3,
-                    true,
-                    machine_file.limits.feedrate}};
+                   {.schedule = {},
+                    .ramp = {machine_file.limits.acceleration, machine_file.limits.jerk},
+                    .period = 1e-3,
+                    .is_wall_clock = true,
+                    .feedrate = machine_file.limits.feedrate}};
   test::FakeMachine machine;
+  Progress progress{machine};
   Cycle cycle{interpolator, &machine, gains, 1e-3};
   std::atomic<bool> stop{false};
 };
@@ -121,11 +171,11 @@ void expect_whole_circle(const SlowRun& run) {
 
 TEST(SlowPlanner, MachineBrakesOnThePathGoesOnAndReachesTheEnd) {
   SlowRun run(8);
-  // 40 mm/s need an arc every 14 ms; these come every 25 ms, in fits and starts.
+  // Ten arcs at a time, and no more until the machine has used them up.
   const MotionEnd end = run.run(
-      [](std::int64_t i) {
+      [&](std::int64_t i) {
         if (i % 10 == 9) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(250));
+          run.progress.wait_for_rest();
         }
       },
       run.samples);
@@ -146,7 +196,7 @@ TEST(SlowPlanner, StopWhileItWaitsEndsAtRest) {
   const MotionEnd end = run.run(
       [&](std::int64_t i) {
         if (i == 30) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(700));
+          run.progress.wait_for_rest();
           run.stop = true;
         }
       },
@@ -168,8 +218,12 @@ TEST(SlowPlanner, OperatorsOverrideAndHoldAreFollowedWhileItMoves) {
   SlowRun run(40);
   std::jthread operating([&](const std::stop_token& ended) {
     std::mt19937 random(3);
-    for (int i = 0; i < 12 && !ended.stop_requested(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(60 + random() % 120));
+    std::int64_t period = 0;
+    for (int i = 0; i < 12; ++i) {
+      period += static_cast<std::int64_t>(60 + random() % 120);
+      if (!run.progress.wait_for_period(period, ended)) {
+        break;
+      }
       run.panel.set_override(20.0 + static_cast<double>(random() % 180));
       run.panel.hold(i % 4 == 2);
     }

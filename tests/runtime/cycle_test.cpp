@@ -6,9 +6,9 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/pacer.hpp"
 #include "runtime/segment_queue.hpp"
-#include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/planned.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/fake_machine.hpp"
+#include "tests/support/planned.hpp"
 
 namespace twin::runtime {
 namespace cycle_test {
@@ -35,10 +35,10 @@ class CycleTest : public ::testing::Test {
 
 TEST_F(CycleTest, AllocatesNothing) {
   hal::ideal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   bool is_fine = cycle.hold() == hal::Status::kOk;
   int periods = 0;
   while (cycle.prepare() == motion::Status::kMoving) {
@@ -46,7 +46,7 @@ TEST_F(CycleTest, AllocatesNothing) {
     ++periods;
   }
   is_fine = is_fine && cycle.hold() == hal::Status::kOk;
-  EXPECT_EQ(hal::testing::allocations(), before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_TRUE(is_fine);
   EXPECT_GT(periods, 500);
 }
@@ -55,12 +55,12 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
   hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";
   hal::mujoco::MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   MonotonicClock clock;
   Pacer pacer(clock, 1e-5, {});
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   bool is_fine = true;
   int late = 0;
   for (int i = 0; i < 300; ++i) {
@@ -72,7 +72,7 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
   while (cycle.read(kPeriod) == hal::Status::kOk && cycle.prepare() == motion::Status::kMoving) {
     is_fine = is_fine && cycle.respond(sample) == hal::Status::kOk;
   }
-  EXPECT_EQ(hal::testing::allocations(), before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_TRUE(is_fine);
   EXPECT_FALSE(cycle.trip());
   EXPECT_GE(late, 0);
@@ -80,8 +80,8 @@ TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
 
 TEST_F(CycleTest, IdealMachineIsWhereTheCommandIs) {
   hal::ideal::IdealMachine machine;
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Cycle cycle(interpolator, &machine, gains, kPeriod);
   std::int64_t periods = 0;
   while (cycle.prepare() == motion::Status::kMoving) {

@@ -1,4 +1,4 @@
-#include "runtime/cycle_time.hpp"
+#include "runtime/program_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,17 +22,17 @@ TEST_P(CycleTime, IsWhatTheRunTakesWithinAPeriod) {
     }
     ++count;
     request.program = entry.path();
-    const auto plan = estimate_plan(request.program, {}, request.machine, nullptr);
-    ASSERT_TRUE(plan) << to_string(plan.error());
+    const auto estimate = estimate_program(request.program, {}, request.machine, nullptr);
+    ASSERT_TRUE(estimate) << to_string(estimate.error());
     double shown = 0.0;
     request.estimated = [&](double time) { shown = time; };
     hal::ideal::IdealMachine machine;
     const auto result = run(&machine);
     ASSERT_TRUE(result && !result->failure) << entry.path();
-    EXPECT_EQ(shown, plan->time);
-    EXPECT_EQ(result->summary.planned_time, plan->time);
-    EXPECT_GE(result->summary.run->machining_time, plan->time - 1e-9) << entry.path();
-    EXPECT_LT(result->summary.run->machining_time, plan->time + request.machine.period)
+    EXPECT_EQ(shown, estimate->plan.time);
+    EXPECT_EQ(result->summary.planned_time, estimate->plan.time);
+    EXPECT_GE(result->summary.run->machining_time, estimate->plan.time - 1e-9) << entry.path();
+    EXPECT_LT(result->summary.run->machining_time, estimate->plan.time + request.machine.period)
         << entry.path();
   }
   EXPECT_GT(count, 3);

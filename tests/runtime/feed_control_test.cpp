@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/runtime/planned.hpp"
+#include "runtime/replan_link.hpp"
+#include "runtime/segment_queue.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/planned.hpp"
 
 namespace twin::runtime {
 namespace feed_control_test {
@@ -21,11 +23,11 @@ class FeedControlTest : public ::testing::Test {
   }
   /// One period; what it allocates is counted.
   motion::Status step() {
-    const std::int64_t before = hal::testing::allocations();
-    control.update(t, stop);
+    const std::int64_t before = test::allocations();
+    control.update(t);
     const motion::Status status = interpolator.step(point);
     control.show({});
-    allocated += hal::testing::allocations() - before;
+    allocated += test::allocations() - before;
     t += kPeriod;
     return status;
   }
@@ -46,9 +48,13 @@ class FeedControlTest : public ::testing::Test {
   motion::Interpolator interpolator{segments, kPeriod};
   ReplanLink link;
   OperatorPanel panel;
-  FeedControl control{interpolator, segments, link, panel, {{}, {2450.0, 50000.0}, kPeriod, true}};
+  FeedControl control{
+      interpolator,
+      segments,
+      link,
+      panel,
+      {.schedule = {}, .ramp = {2450.0, 50000.0}, .period = kPeriod, .is_wall_clock = true}};
   motion::SetPoint point;
-  std::atomic<bool> stop{false};
   double t = 0.0;  // [s]
   std::int64_t allocated = 0;
 };
@@ -72,7 +78,7 @@ TEST_F(FeedControlTest, RefusesAnOfferThatComesTooLateAndLeavesMoreRoom) {
   ASSERT_NE(link.request(), nullptr);
   offer_hold(0.05);  // passed by now
   steps(1);
-  EXPECT_EQ(link.verdict(), false);
+  EXPECT_EQ(link.verdict(), Verdict::kRejected);
   EXPECT_EQ(interpolator.latest_plan(), 0);
   link.close();
   steps(1);
@@ -88,7 +94,7 @@ TEST_F(FeedControlTest, AHoldRefusesWhatWasOfferedAndAsksFromRestAfterwards) {
   offer_hold(1.0);
   while (step() == motion::Status::kMoving) {
   }
-  EXPECT_EQ(link.verdict(), false);
+  EXPECT_EQ(link.verdict(), Verdict::kRejected);
   EXPECT_TRUE(control.is_hold());
   EXPECT_EQ(point.feedrate, 0.0);
   link.close();

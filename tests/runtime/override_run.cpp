@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 
 #include "results/metrics/limit_audit.hpp"
 #include "runtime/feed_control.hpp"
-#include "runtime/program_planner.hpp"
+#include "tests/runtime/planned.hpp"
 
 namespace twin::test {
 namespace {
@@ -48,34 +47,26 @@ void raise(const results::AuditPeaks& to, results::AuditPeaks& peaks) {
 
 OverrideRun run_with_overrides(const std::string& text, const config::MachineFile& machine,
                                const std::vector<runtime::OverrideChange>& schedule) {
-  auto reader = gcode::Reader::from_text(text, "text");
-  const auto look_ahead = static_cast<std::size_t>(machine.path.look_ahead);
-  runtime::SegmentQueue segments(look_ahead, look_ahead + 2);
-  motion::Interpolator interpolator(segments, machine.period, machine.interpolation);
-  runtime::ReplanLink link;
   runtime::OperatorPanel panel;
+  const double percent = runtime::first_override(schedule, panel);
+  InlinePlan plan(text, machine, InlinePlan::Replans::kOnRequest, percent);
+  motion::Interpolator interpolator(plan.planning, machine.period, machine.interpolation);
   const Limits& limits = machine.limits;
-  FeedControl feed(
-      interpolator, segments, link, panel,
-      {schedule, {limits.acceleration, limits.jerk}, machine.period, false, limits.feedrate});
+  FeedControl feed(interpolator, plan.planning, plan.planning, panel,
+                   {.schedule = schedule,
+                    .ramp = {limits.acceleration, limits.jerk},
+                    .period = machine.period,
+                    .first_percent = percent,
+                    .feedrate = limits.feedrate});
   runtime::Cycle cycle(interpolator, nullptr, machine.servo, machine.period);
   runtime::SampleQueue samples(1 << 17);
   std::atomic<bool> stop{false};
   OverrideRun run;
-  {
-    const std::jthread planning([&] {
-      runtime::ProgramPlanner planner(reader, machine, segments, &link, feed.first_percent());
-      const auto figures = planner.run();
-      EXPECT_TRUE(figures) << (figures ? "" : to_string(figures.error()));
-      stop = stop || !figures;
-      link.break_off();
-    });
-    runtime::Pace pace;
-    pace.period = machine.period;
-    pace.feed = &feed;
-    run.end = run_motion(cycle, interpolator, segments, samples, limits, pace, stop).end;
-    segments.stop();
-  }
+  runtime::LockstepPace pace(plan.planning, stop);
+  run.end = run_motion(cycle, interpolator, plan.planning, samples, pace,
+                       {.period = machine.period, .limits = limits, .feed = &feed}, stop)
+                .end;
+  EXPECT_FALSE(plan.planning.error()) << to_string(*plan.planning.error());
   run.records = feed.records();
   results::Sample sample;
   while (samples.pop(sample)) {

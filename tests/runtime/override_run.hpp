@@ -5,7 +5,7 @@
 
 #include "config/machine_file.hpp"
 #include "results/metrics/limit_audit.hpp"
-#include "results/metrics/override_record.hpp"
+#include "results/metrics/summary.hpp"
 #include "results/trace/sample.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/override_schedule.hpp"
@@ -19,7 +19,7 @@ struct OverrideRun {
   runtime::MotionEnd end = runtime::MotionEnd::kDone;
 };
 
-/// Plans a program's text in one thread and follows it in another, without a machine.
+/// Plans a program's text and follows it, without a machine.
 OverrideRun run_with_overrides(const std::string& text, const config::MachineFile& machine,
                                const std::vector<runtime::OverrideChange>& schedule);
 

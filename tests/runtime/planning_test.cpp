@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/runtime/planned.hpp"
+#include "tests/support/planned.hpp"
 
 namespace twin::runtime {
 namespace planning_test {
@@ -100,6 +100,7 @@ TEST(Planning, ShortBlocksBecomeCurvesAndTheirLengthsAreThoseOfTheProgram) {
 
 TEST(Planning, LinearLeavesTheBlocksAsTheyAre) {
   config::MachineFile machine;
+  machine.path.planner = Planner::kPaper;
   machine.path.curves = CurveKind::kNone;
   const auto figures = plan(short_blocks(50), machine);
   ASSERT_TRUE(figures);

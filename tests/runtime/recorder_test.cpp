@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tests/runtime/planned.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -21,9 +22,8 @@ class RecorderTest : public ::testing::Test {
     std::filesystem::create_directories(folder / "plots");
     Recorder::Options options;
     options.directory = folder.path();
-    options.program = folder.put("line.nc", "G01 X10 F600\n");
     options.has_machine = has_machine;
-    auto created = Recorder::create(options);
+    auto created = Recorder::create(options, test::blocks_of("G01 X10 F600\n"));
     ASSERT_TRUE(created) << to_string(created.error());
     recorder.emplace(std::move(*created));
   }
@@ -38,7 +38,7 @@ class RecorderTest : public ::testing::Test {
       sample.feedrate_limit = 10.0;
       sample.encoder = {i - 0.25, error(i)};
       sample.table = {i - 0.25, 2.0 * error(i)};
-      ASSERT_TRUE(recorder->take(sample));
+      ASSERT_TRUE(recorder->record(sample));
     }
   }
 
@@ -105,8 +105,7 @@ TEST_F(RecorderTest, FiguresAreThoseOfTheErrorsThatWentIn) {
 TEST_F(RecorderTest, RefusesAFolderThatIsNotThere) {
   Recorder::Options options;
   options.directory = folder / "none";
-  options.program = folder.put("line.nc", "G01 X10 F600\n");
-  const auto created = Recorder::create(options);
+  const auto created = Recorder::create(options, test::blocks_of("G01 X10 F600\n"));
   ASSERT_FALSE(created);
   EXPECT_EQ(created.error().code, ErrorCode::kFile);
 }

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/runtime/fake_machine.hpp"
-#include "tests/runtime/faulty_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/fake_machine.hpp"
+#include "tests/support/faulty_machine.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // What throws or trips in a run: the machine is off, the trace is kept, the run says why.
 namespace twin::runtime {
@@ -78,7 +78,7 @@ TEST_F(RunProgram, WallClockHasItsFiguresAndLockstepHasNone) {
   const auto wall_clock = run(&machine);
   ASSERT_TRUE(wall_clock && !wall_clock->failure);
   ASSERT_TRUE(wall_clock->summary.run->realtime);
-  const results::RealTimeFigures& figures = *wall_clock->summary.run->realtime;
+  const results::RealTimeStats& figures = *wall_clock->summary.run->realtime;
   EXPECT_LE(figures.wake_up.p50, figures.wake_up.p99);
   EXPECT_LE(figures.wake_up.p99, figures.wake_up.p999);
   EXPECT_LE(figures.wake_up.p999, figures.wake_up.max);

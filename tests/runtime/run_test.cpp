@@ -9,10 +9,10 @@
 
 #include "hal/ideal/ideal_machine.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/runtime/fake_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
-#include "tests/runtime/trace_rows.hpp"
+#include "tests/support/fake_machine.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/trace_rows.hpp"
 
 namespace twin::runtime {
 namespace run_test {

@@ -25,8 +25,8 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
-namespace twin::hal::testing {
+namespace twin::test {
 
 std::int64_t allocations() noexcept { return count.load(std::memory_order_relaxed); }
 
-}  // namespace twin::hal::testing
+}  // namespace twin::test

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-namespace twin::hal::testing {
+namespace twin::test {
 
 /// Calls of operator new in this process so far.
 std::int64_t allocations() noexcept;
 
-}  // namespace twin::hal::testing
+}  // namespace twin::test

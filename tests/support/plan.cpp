@@ -2,19 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/motion_profile.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
+#include "tests/support/motion_profile.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 namespace {
 
 constexpr double kPlace = 2e-9;     // rounding of places [mm]
 constexpr double kAtRest = 2e-3;    // feedrate within kPlace of rest [mm/s]
 constexpr double kFeedrate = 1e-5;  // [mm/s]
 
-void expect_under_zones(const PlannedSegment& planned, const MotionProfile& profile) {
+void expect_under_zones(const feedrate::PlannedSegment& planned, const MotionProfile& profile) {
   double covered = 0.0;
-  for (const LimitZone& zone : planned.limits) {
+  for (const feedrate::LimitZone& zone : planned.limits) {
     ASSERT_NEAR(zone.begin, covered, kPlace);
     covered = zone.end;
     const bool is_place = zone.end - zone.begin < 3.0 * kPlace;
@@ -29,8 +29,8 @@ void expect_under_zones(const PlannedSegment& planned, const MotionProfile& prof
   ASSERT_NEAR(covered, planned.segment.length, kPlace);
 }
 
-void expect_normal_acceleration(const PlannedSegment& planned, const MotionProfile& profile,
-                                const Limits& limits) {
+void expect_normal_acceleration(const feedrate::PlannedSegment& planned,
+                                const MotionProfile& profile, const Limits& limits) {
   const auto* fitted = std::get_if<path::FittedCurve>(&planned.segment.geometry);
   for (int i = 0; fitted != nullptr && i <= 100; ++i) {
     const double s = 0.01 * i * planned.segment.length;
@@ -42,17 +42,18 @@ void expect_normal_acceleration(const PlannedSegment& planned, const MotionProfi
 }
 
 /// One segment; `at` is the motion at its start and becomes that at its end.
-void expect_whole_segment(const PlannedSegment& planned, const Limits& limits, PathMotion& at) {
+void expect_whole_segment(const feedrate::PlannedSegment& planned, const Limits& limits,
+                          feedrate::PathMotion& at) {
   at.s = 0.0;
-  for (const Phase& phase : planned.phases) {
+  for (const feedrate::Phase& phase : planned.phases) {
     ASSERT_GE(phase.duration, 0.0);
     ASSERT_NEAR(phase.s, at.s, kPlace);
     ASSERT_NEAR(phase.v, at.v, kFeedrate);
     ASSERT_NEAR(phase.a, at.a, 1e-5 * limits.acceleration);
-    const double way = motion_at(phase, phase.duration).s - phase.s;
+    const double way = feedrate::motion_at(phase, phase.duration).s - phase.s;
     // A ramp may be 1 nm longer than its room: then it is that much steeper.
     ASSERT_LE(std::abs(phase.j) * (way > 1e-6 ? 1.0 : 0.0), limits.jerk * 1.005);
-    at = motion_at(phase, phase.duration);
+    at = feedrate::motion_at(phase, phase.duration);
     ASSERT_LE(std::abs(at.a), limits.acceleration * 1.001);
     ASSERT_GE(at.v, -kFeedrate);
   }
@@ -65,13 +66,13 @@ Plan plan(const std::vector<path::Segment>& segments, const PlanSettings& settin
   Plan result;
   PathSettings path = settings.path;
   path.look_ahead = settings.look_ahead;
-  LookAhead look_ahead(settings.limits, settings.model, path, settings.period,
-                       [&](PlannedSegment&& planned) {
-                         for (const Phase& phase : planned.phases) {
-                           result.time += phase.duration;
-                         }
-                         result.segments.push_back(std::move(planned));
-                       });
+  feedrate::LookAhead look_ahead(settings.limits, settings.model, path, settings.period,
+                                 [&](feedrate::PlannedSegment&& planned) {
+                                   for (const feedrate::Phase& phase : planned.phases) {
+                                     result.time += phase.duration;
+                                   }
+                                   result.segments.push_back(std::move(planned));
+                                 });
   for (path::Segment segment : segments) {
     look_ahead.push(std::move(segment));
   }
@@ -81,14 +82,13 @@ Plan plan(const std::vector<path::Segment>& segments, const PlanSettings& settin
 }
 
 Plan plan(const std::vector<gcode::Block>& blocks, const PlanSettings& settings) {
-  return plan(path::testing::build(blocks, settings.path, settings.model, settings.limits),
-              settings);
+  return plan(build(blocks, settings.path, settings.model, settings.limits), settings);
 }
 
 void expect_whole(const Plan& plan, const Limits& limits, bool keeps_normal_acceleration) {
-  PathMotion at{0.0, 0.0, 0.0};
+  feedrate::PathMotion at{0.0, 0.0, 0.0};
   std::int64_t index = 0;
-  for (const PlannedSegment& planned : plan.segments) {
+  for (const feedrate::PlannedSegment& planned : plan.segments) {
     ASSERT_EQ(planned.index, index++);
     if (planned.segment.length == 0.0) {
       ASSERT_EQ(planned.phases.size(), 1U);
@@ -110,4 +110,4 @@ void expect_whole(const Plan& plan, const Limits& limits, bool keeps_normal_acce
   ASSERT_NEAR(at.a, 0.0, 1e-5 * limits.acceleration);
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

@@ -6,10 +6,10 @@
 #include "gcode/block.hpp"
 #include "path/segment.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 struct Plan {
-  std::vector<PlannedSegment> segments;
+  std::vector<feedrate::PlannedSegment> segments;
   std::int64_t fallbacks = 0;
   double time = 0.0;  ///< sum of all phases [s]
 };
@@ -31,4 +31,4 @@ Plan plan(const std::vector<gcode::Block>& blocks, const PlanSettings& settings 
 /// and dwell as long as they must.
 void expect_whole(const Plan& plan, const Limits& limits, bool keeps_normal_acceleration = true);
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

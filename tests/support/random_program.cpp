@@ -1,14 +1,10 @@
 #include "random_program.hpp"
 
-#include "tests/feedrate/profile/s_curve.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
+#include "tests/support/s_curve.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 namespace {
-
-using path::testing::arc_block;
-using path::testing::dwell_block;
-using path::testing::line_block;
 
 /// Writes a program block by block from where it is, in the direction it goes.
 class Writer {
@@ -114,4 +110,4 @@ std::vector<gcode::Block> random_program(std::mt19937& random, int pieces) {
   return writer.take();
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

@@ -5,10 +5,10 @@
 
 #include "gcode/block.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 /// A program of lines, arcs, helices, smooth runs of short blocks, crumbs, zigzags, dwells, exact
 /// stops, rapids and changes of feedrate, as nasty as the seed has it.
 std::vector<gcode::Block> random_program(std::mt19937& random, int pieces);
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/s_curve.hpp"
+#include "tests/support/s_curve.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
-std::vector<LimitZone> random_zones(std::mt19937& random) {
+std::vector<feedrate::LimitZone> random_zones(std::mt19937& random) {
   const auto count = 1 + random() % 30;
   const double shortest = random() % 2 == 0 ? 1e-3 : 1e-5;
   const double longest = log_uniform(random, 0.01, 30.0);
-  std::vector<LimitZone> zones;
+  std::vector<feedrate::LimitZone> zones;
   double s = log_uniform(random, 1e-3, 10.0);
   for (std::size_t i = 0; i < count; ++i) {
     const double end = s + log_uniform(random, shortest, longest);
@@ -23,9 +23,10 @@ std::vector<LimitZone> random_zones(std::mt19937& random) {
   return zones;
 }
 
-void expect_under_zones(const MotionProfile& profile, const std::vector<LimitZone>& zones) {
+void expect_under_zones(const MotionProfile& profile,
+                        const std::vector<feedrate::LimitZone>& zones) {
   constexpr double kPlace = 2e-9;
-  for (const LimitZone& zone : zones) {
+  for (const feedrate::LimitZone& zone : zones) {
     const double most = zone.limit * (1.0 + 1e-6) + 1e-6;
     if (zone.begin == zone.end) {
       ASSERT_LE(std::min({profile.feedrate_at(zone.begin - kPlace), profile.feedrate_at(zone.begin),
@@ -40,14 +41,14 @@ void expect_under_zones(const MotionProfile& profile, const std::vector<LimitZon
   }
 }
 
-void expect_feasible(const MotionProfile& profile, const RampLimits& limits) {
-  PathMotion at{profile.phases().front().s, profile.phases().front().v, 0.0};
-  for (const Phase& phase : profile.phases()) {
+void expect_feasible(const MotionProfile& profile, const feedrate::RampLimits& limits) {
+  feedrate::PathMotion at{profile.phases().front().s, profile.phases().front().v, 0.0};
+  for (const feedrate::Phase& phase : profile.phases()) {
     ASSERT_GE(phase.duration, 0.0);
     ASSERT_NEAR(phase.s, at.s, 1e-8);
     ASSERT_NEAR(phase.v, at.v, 1e-6);
     ASSERT_NEAR(phase.a, at.a, 1e-6 * limits.acceleration);
-    at = motion_at(phase, phase.duration);
+    at = feedrate::motion_at(phase, phase.duration);
     ASSERT_LE(std::abs(at.a), limits.acceleration * (1.0 + 1e-3));
     // A ramp may be 1 nm longer than its room: then it is that much steeper.
     const double slack = 1e-3 + 4e-9 / std::max(at.s - phase.s, 1e-9);
@@ -57,4 +58,4 @@ void expect_feasible(const MotionProfile& profile, const RampLimits& limits) {
   ASSERT_NEAR(at.a, 0.0, 1e-6 * limits.acceleration);
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

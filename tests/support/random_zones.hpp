@@ -3,19 +3,20 @@
 #include <random>
 #include <vector>
 
-#include "feedrate/limits/limit_zone.hpp"
-#include "feedrate/profile/ramp_limits.hpp"
-#include "tests/feedrate/profile/motion_profile.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/profile/ramps.hpp"
+#include "tests/support/motion_profile.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 /// Zones of all sizes, with single places and stops between them.
-std::vector<LimitZone> random_zones(std::mt19937& random);
+std::vector<feedrate::LimitZone> random_zones(std::mt19937& random);
 
 /// Fails unless the feedrate stays under every zone, but for the rounding of places.
-void expect_under_zones(const MotionProfile& profile, const std::vector<LimitZone>& zones);
+void expect_under_zones(const MotionProfile& profile,
+                        const std::vector<feedrate::LimitZone>& zones);
 
 /// Fails unless the phases join in place, feedrate and acceleration and keep A and J.
-void expect_feasible(const MotionProfile& profile, const RampLimits& limits);
+void expect_feasible(const MotionProfile& profile, const feedrate::RampLimits& limits);
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

@@ -174,9 +174,7 @@ Expected<std::unique_ptr<SharedRegisters>> SharedRegisters::attach(const std::st
                       fmt::format("no emulator is running (no shared memory {}); {}", name, kStart))
                : refused(name, "opened");
   }
-  if (Expected<void> usable = check_block(name, file.get()); !usable) {
-    return tl::unexpected<Error>(usable.error());
-  }
+  TWIN_CHECK(check_block(name, file.get()));
   SharedBlock* block = map(file.get());
   if (block == nullptr) {
     return refused(name, "mapped");

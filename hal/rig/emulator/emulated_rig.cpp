@@ -38,11 +38,8 @@ EmulatedRig::EmulatedRig(mujoco::TableParams table, RigSettings wiring, std::vec
 }
 
 Expected<void> EmulatedRig::power_on(double period) {
-  Expected<std::unique_ptr<mujoco::TablePlant>> plant = mujoco::TablePlant::open(table_, period);
-  if (!plant) {
-    return tl::unexpected<Error>(plant.error());
-  }
-  plant_ = std::move(*plant);
+  TWIN_TRY(std::unique_ptr<mujoco::TablePlant> plant, mujoco::TablePlant::open(table_, period));
+  plant_ = std::move(plant);
   period_ = period;
   struck_.assign(faults_.size(), 0);
   state_.fill(AxisState{});

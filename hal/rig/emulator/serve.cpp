@@ -119,9 +119,7 @@ void Server::leave_out(std::int64_t nanoseconds_behind) {
 }
 
 Expected<ServeResult> Server::run(std::optional<double> duration, const std::atomic<bool>& stop) {
-  if (Expected<void> on = rig_.power_on(step_); !on) {
-    return tl::unexpected<Error>(on.error());
-  }
+  TWIN_CHECK(rig_.power_on(step_));
   shared_->publish();
   const std::int64_t start = monotonic_ns();
   next_ = start + step_ns_;
@@ -156,12 +154,10 @@ Expected<ServeResult> serve(const mujoco::TableParams& table, const RigSettings&
                 fmt::format("step {} s of the emulator is outside 0.00001 to 0.1", settings.step));
   }
   ::prctl(PR_SET_TIMERSLACK, 1UL);  // the default lets sleeps end 50 us late
-  Expected<std::unique_ptr<boards::SharedRegisters>> shared = boards::SharedRegisters::create(
-      settings.name.empty() ? boards::default_shared_name() : settings.name);
-  if (!shared) {
-    return tl::unexpected<Error>(shared.error());
-  }
-  return Server(std::move(*shared), table, wiring, settings, tell).run(settings.duration, stop);
+  TWIN_TRY(std::unique_ptr<boards::SharedRegisters> shared,
+           boards::SharedRegisters::create(settings.name.empty() ? boards::default_shared_name()
+                                                                 : settings.name));
+  return Server(std::move(shared), table, wiring, settings, tell).run(settings.duration, stop);
 }
 
 }  // namespace twin::hal::rig::emulator

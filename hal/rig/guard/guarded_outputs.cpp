@@ -28,11 +28,8 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
 }
 
 Expected<MakeSafe> open_shared(const std::string& name, std::uint16_t digital) {
-  auto attached = boards::SharedRegisters::attach(name, boards::SharedRole::kObserver);
-  if (!attached) {
-    return tl::unexpected(attached.error());
-  }
-  const std::shared_ptr<boards::SharedRegisters> shared = std::move(*attached);
+  TWIN_TRY(auto attached, boards::SharedRegisters::attach(name, boards::SharedRole::kObserver));
+  const std::shared_ptr<boards::SharedRegisters> shared = std::move(attached);
   const auto port = std::make_shared<boards::EmulatedPci1716>(shared->boards().pci1716);
   return [shared, port, digital] { make_safe(*port, digital); };
 }
@@ -47,12 +44,9 @@ Expected<MakeSafe> open_daqnavi(std::string_view library_and_board, std::uint16_
           std::errc()) {
     return fail(ErrorCode::kUsage, fmt::format("daqnavi:{} has no board ID", library_and_board));
   }
-  auto cards = DaqnaviCards::open_outputs_only(std::string(library_and_board.substr(0, colon)),
-                                               board_id, digital);
-  if (!cards) {
-    return tl::unexpected(cards.error());
-  }
-  return [open = std::shared_ptr<Cards>(std::move(*cards))] { open->make_safe(); };
+  TWIN_TRY(auto cards, DaqnaviCards::open_outputs_only(
+                           std::string(library_and_board.substr(0, colon)), board_id, digital));
+  return [open = std::shared_ptr<Cards>(std::move(cards))] { open->make_safe(); };
 }
 
 Expected<MakeSafe> open_registers(std::string_view address, std::uint16_t digital) {

@@ -37,19 +37,11 @@ Expected<CardSeen> look_at(const CardKind& kind, const PciDevice& device, Access
   if (kind.device == kPci1716.device && device.subsystem_device == kSubsystem1716L) {
     return fail(ErrorCode::kMachine, "it is a PCI-1716L, which has no analogue outputs");
   }
-  const Expected<PortAddress> address = address_of(device, access);
-  if (!address) {
-    return tl::unexpected(address.error());
-  }
-  if (const Expected<void> enabled = enable(device); !enabled) {
-    return tl::unexpected(enabled.error());
-  }
-  const auto port = open_port(*address);
-  if (!port) {
-    return tl::unexpected(port.error());
-  }
-  return board_id_of(kind, **port).map([&](int board_id) {
-    return CardSeen{device, *address, board_id, {}};
+  TWIN_TRY(const PortAddress address, address_of(device, access));
+  TWIN_CHECK(enable(device));
+  TWIN_TRY(const auto port, open_port(address));
+  return board_id_of(kind, *port).map([&](int board_id) {
+    return CardSeen{device, address, board_id, {}};
   });
 }
 

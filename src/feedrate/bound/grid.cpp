@@ -81,17 +81,18 @@ class Divider {
 };
 
 double Divider::limit_at(const path::PathPoint& at) const {
-  const bool is_fitted = std::holds_alternative<path::FittedCurve>(segment_.geometry);
+  const On what =
+      std::holds_alternative<path::FittedCurve>(segment_.geometry) ? On::kCurve : On::kArcOrLine;
   const auto place = rules_.needs_turning() ? feedrate::local_geometry(at)
                                             : feedrate::LocalGeometry{at.curvature.norm()};
-  return rules_.limit_at(place, segment_.feedrate, is_fitted);
+  return rules_.limit_at(place, segment_.feedrate, what);
 }
 
 double Divider::largest_limit(const GridPoint& a, const GridPoint& b) const {
   double limit = std::max(a.limit, b.limit);
   if (!rules_.needs_turning() && std::holds_alternative<path::FittedCurve>(segment_.geometry)) {
     const double least = least_norm(a.at.curvature, b.at.curvature);
-    limit = std::max(limit, rules_.limit_at({least}, segment_.feedrate, true));
+    limit = std::max(limit, rules_.limit_at({least}, segment_.feedrate, On::kCurve));
   }
   return limit;
 }
@@ -191,9 +192,9 @@ void Divider::divide_curve(const path::FittedCurve& curve) {
     return local_geometry(u, curve.arc_length.s_at(curve.curve, u));
   };
   const bool may_skip = !has_axes_ && !rules_.needs_turning();
-  const double fastest = rules_.limit_at({0.0}, segment_.feedrate, true);
+  const double fastest = rules_.limit_at({0.0}, segment_.feedrate, On::kCurve);
   const auto is_free = [&](const geometry::CurvatureSample& sample) {
-    return rules_.limit_at({sample.curvature}, segment_.feedrate, true) >= fastest;
+    return rules_.limit_at({sample.curvature}, segment_.feedrate, On::kCurve) >= fastest;
   };
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const auto& a = samples[i - 1];

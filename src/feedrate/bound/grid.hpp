@@ -4,7 +4,7 @@
 
 #include "core/limits.hpp"
 #include "feedrate/bound/cell.hpp"
-#include "feedrate/limits/feedrate_rule.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
@@ -20,11 +20,12 @@ struct Fineness {
 /// Appends the cells of one segment.
 ///
 /// A line is one cell, and so is an arc unless an axis has a limit of its own. A curve is divided
-/// at its curvature samples, and further by halves where the limit changes within a cell. The cap
-/// of a cell is the largest limit on it, that of the least curvature of d2C/ds2 taken as linear
-/// over the cell: so the staircase of caps is nowhere below the limit, and a coarse grid gives a
-/// bound that is too low, not too high. Successive cells without axis limits and with the same cap
-/// become one.
+/// at its curvature samples, and further by halves where the limit changes within a cell.
+///
+/// The cap of a cell is the largest limit on it. It comes from the least curvature, with d2C/ds2
+/// taken as linear over the cell. So the staircase of caps is nowhere below the limit, and a coarse
+/// grid gives a bound that is too low, not too high. Successive cells without axis limits and with
+/// the same cap become one.
 void append_cells(const path::Segment& segment, const feedrate::FeedrateRules& rules,
                   const Limits& limits, const Fineness& fineness, std::vector<Cell>& cells);
 

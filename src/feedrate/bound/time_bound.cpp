@@ -9,7 +9,10 @@
 namespace twin::feedrate {
 namespace {
 
-constexpr double kSameTime = 3e-4;  // change of time below which a grid is fine enough [-]
+/// Change of time below which a grid is fine enough [-], and the most halvings of it. A larger
+/// change saves halvings, each of which is twice the work of the one before, and gives a bound that
+/// is less sharp by as much.
+constexpr double kSameTime = 3e-4;
 constexpr int kMostHalvings = 6;
 
 /// The geometry of a segment without its blocks.
@@ -33,42 +36,42 @@ void TimeBound::add(const feedrate::PlannedSegment& planned) {
   const path::Segment& segment = planned.segment;
   if (segment.length <= 0.0) {
     time_ += segment.dwell;
-    if (!pieces_.empty()) {
-      pieces_.back().end_cap = 0.0;
+    if (!open_.empty()) {
+      open_.back().end_cap = 0.0;
     }
     return;
   }
-  Piece piece{bare(segment), segment.stops_at_end ? 0.0 : kNoCap};
+  OpenSegment open{bare(segment), segment.stops_at_end ? 0.0 : kNoCap};
   for (const feedrate::LimitZone& zone : planned.limits) {
     if (zone.begin == zone.end) {  // a corner: of this segment's end, or of its begin
       const double q = zone.limit * zone.limit;
       const bool is_begin = zone.end < 0.5 * segment.length;
       if (!is_begin) {
-        piece.end_cap = std::min(piece.end_cap, q);
-      } else if (!pieces_.empty()) {
-        pieces_.back().end_cap = std::min(pieces_.back().end_cap, q);
+        open.end_cap = std::min(open.end_cap, q);
+      } else if (!open_.empty()) {
+        open_.back().end_cap = std::min(open_.back().end_cap, q);
       }
     }
   }
-  pieces_.push_back(std::move(piece));
-  if (pieces_.size() >= next_look_) {
-    settle(false);
+  open_.push_back(std::move(open));
+  if (open_.size() >= next_look_) {
+    release(Tail::kOpen);
   }
 }
 
 double TimeBound::finish() {
-  if (!pieces_.empty()) {
-    settle(true);
+  if (!open_.empty()) {
+    release(Tail::kClosed);
   }
   return time_;
 }
 
-/// Cells of the first pieces, and the cap of each place between them.
-void TimeBound::make_grid(std::size_t pieces, const Fineness& fineness, Pass& pass) const {
+/// Cells of the first segments, and the cap of each place between them.
+void TimeBound::make_grid(std::size_t segments, const Fineness& fineness, Pass& pass) const {
   pass.cells.clear();
   pass.first.assign(1, 0);
-  for (std::size_t i = 0; i < pieces; ++i) {
-    append_cells(pieces_[i].segment, rules_, limits_, fineness, pass.cells);
+  for (std::size_t i = 0; i < segments; ++i) {
+    append_cells(open_[i].segment, rules_, limits_, fineness, pass.cells);
     pass.first.push_back(pass.cells.size());
   }
   const std::size_t n = pass.cells.size();
@@ -77,9 +80,9 @@ void TimeBound::make_grid(std::size_t pieces, const Fineness& fineness, Pass& pa
     pass.node[i] = std::min(pass.node[i], pass.cells[i].cap);
     pass.node[i + 1] = pass.cells[i].cap;
   }
-  for (std::size_t i = 0; i < pieces; ++i) {
+  for (std::size_t i = 0; i < segments; ++i) {
     double& cap = pass.node[pass.first[i + 1]];
-    cap = std::min(cap, pieces_[i].end_cap);
+    cap = std::min(cap, open_[i].end_cap);
   }
 }
 
@@ -91,20 +94,20 @@ void TimeBound::run_backward(double end, Pass& pass) {
   }
 }
 
-/// Forward pass: the time until the begin of a piece [s]; pass.node then has the q reached.
-double TimeBound::time_until(std::size_t piece, Pass& pass) const {
+/// Forward pass: the time until the begin of a segment [s]; pass.node then has the q reached.
+double TimeBound::time_until(std::size_t segment, Pass& pass) const {
   double time = 0.0;
   pass.node[0] = std::min(pass.node[0], start_);
-  for (std::size_t i = 0; i < pass.first[piece]; ++i) {
+  for (std::size_t i = 0; i < pass.first[segment]; ++i) {
     pass.node[i + 1] = largest_end(pass.cells[i], pass.node[i], pass.node[i + 1]);
     time += cell_time(pass.cells[i], pass.node[i], pass.node[i + 1]);
   }
   return time;
 }
 
-/// The last piece whose begin does not depend on what follows the last one; 0: none. The pass is
-/// left as from the cap at the end.
-std::size_t TimeBound::settled_piece(Pass& pass) const {
+/// How many of the first segments have a time that does not depend on what follows the last one.
+/// The pass is left as from the cap at the end.
+std::size_t TimeBound::final_segments(Pass& pass) const {
   Pass from_rest = pass;
   run_backward(0.0, from_rest);
   run_backward(kNoCap, pass);
@@ -116,9 +119,9 @@ std::size_t TimeBound::settled_piece(Pass& pass) const {
   return 0;
 }
 
-void TimeBound::report(std::size_t piece, const Pass& pass) {
+void TimeBound::report(std::size_t segment, const Pass& pass) {
   double s = s_;
-  for (std::size_t i = 0; i < pass.first[piece]; ++i) {
+  for (std::size_t i = 0; i < pass.first[segment]; ++i) {
     const Cell& cell = pass.cells[i];
     const double q0 = pass.node[i];
     const double q1 = pass.node[i + 1];
@@ -133,20 +136,20 @@ void TimeBound::report(std::size_t piece, const Pass& pass) {
   }
 }
 
-void TimeBound::settle(bool is_last) {
+void TimeBound::release(Tail tail) {
   Fineness fineness;
   Pass pass;
-  make_grid(pieces_.size(), fineness, pass);
-  std::size_t until = pieces_.size();
-  if (is_last) {
+  make_grid(open_.size(), fineness, pass);
+  std::size_t until = open_.size();
+  if (tail == Tail::kClosed) {
     run_backward(0.0, pass);
   } else {
-    until = settled_piece(pass);
-    if (until == 0 && pieces_.size() < kMostSegments) {
-      next_look_ = 2 * pieces_.size();
+    until = final_segments(pass);
+    if (until == 0 && open_.size() < kMostSegments) {
+      next_look_ = 2 * open_.size();
       return;
     }
-    until = until == 0 ? pieces_.size() / 2 : until;
+    until = until == 0 ? open_.size() / 2 : until;
   }
   const double end = pass.node[pass.first[until]];
   double time = time_until(until, pass);
@@ -168,10 +171,10 @@ void TimeBound::settle(bool is_last) {
   time_ += time - fall;
   start_ = pass.node[pass.first[until]];
   for (std::size_t i = 0; i < until; ++i) {
-    s_ += pieces_[i].segment.length;
+    s_ += open_[i].segment.length;
   }
-  pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(until));
-  next_look_ = pieces_.size() + kWindow;
+  open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(until));
+  next_look_ = open_.size() + kWindow;
 }
 
 }  // namespace twin::feedrate

@@ -7,8 +7,9 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "feedrate/bound/grid.hpp"
-#include "feedrate/limits/feedrate_rule.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 #include "feedrate/planned_segment.hpp"
+#include "feedrate/planner.hpp"
 
 /// How fast a path could be traversed at best.
 namespace twin::feedrate {
@@ -29,16 +30,16 @@ namespace twin::feedrate {
 /// Transactions on Robotics, 2018. Their linear programs have two unknowns here and are solved by
 /// hand (reach.hpp).
 ///
-/// V is the limit of the planner's own rules (FeedrateRules), with that of each corner as the
-/// planner has it and rest where it stops; dwell adds its time.
+/// V is the limit of the planner's own rules (FeedrateRules), the limit that the planner has for
+/// each corner, and 0 where it stops; dwells add their time.
 ///
 /// Segments are kept until nothing that follows can change the result up to there: a pass backward
 /// from rest and one from the cap agree. The grid of each such stretch is halved until its time
-/// changes by less than 0.03 %. Without limits of axes every grid gives a lower bound, and finer
-/// ones rise to the optimum. With them u is constant over a cell, which asks too much of it: there
-/// finer grids fall, by half as much with each halving, and the last fall is taken off once more.
-/// Where the passes do not agree within kMostSegments the faster one is taken, which keeps the
-/// bound below.
+/// changes by less than 0.03 %. Without limits of axes every grid gives a lower bound, and the
+/// bounds of finer grids rise to the optimum. With them u has to be constant over a cell, which is
+/// slower than need be: there the times of finer grids fall, by half as much with each halving, and
+/// the last fall is taken off once more. Where the two passes do not agree within kMostSegments,
+/// the faster one is taken, which keeps the bound below the optimum.
 class TimeBound {
  public:
   static constexpr std::size_t kWindow = 256;         ///< segments looked at together
@@ -61,34 +62,34 @@ class TimeBound {
   double finish();
 
  private:
-  /// A segment that is not yet settled.
-  struct Piece {
+  /// A segment whose time may still depend on what follows.
+  struct OpenSegment {
     path::Segment segment;    // its geometry
     double end_cap = kNoCap;  // largest q at its end
   };
 
-  /// The grid over the pieces and the passes on it.
+  /// The grid over the open segments and the passes on it.
   struct Pass {
     std::vector<Cell> cells;
-    std::vector<std::size_t> first;  // cell of each piece, and one past the last
+    std::vector<std::size_t> first;  // cell of each segment, and one past the last
     std::vector<double> node;        // largest q of each place; after the pass, controllable
   };
 
-  void settle(bool is_last);
-  void make_grid(std::size_t pieces, const Fineness& fineness, Pass& pass) const;
+  void release(Tail tail);
+  void make_grid(std::size_t segments, const Fineness& fineness, Pass& pass) const;
   static void run_backward(double end, Pass& pass);
-  double time_until(std::size_t piece, Pass& pass) const;
-  std::size_t settled_piece(Pass& pass) const;
-  void report(std::size_t piece, const Pass& pass);
+  double time_until(std::size_t segment, Pass& pass) const;
+  std::size_t final_segments(Pass& pass) const;
+  void report(std::size_t segment, const Pass& pass);
 
   Limits limits_;
   feedrate::FeedrateRules rules_;
   Profile profile_;
-  std::deque<Piece> pieces_;
-  std::size_t next_look_ = kWindow;  // pieces at which the next stretch is looked for
-  double start_ = 0.0;               // q at the begin of the first piece
-  double time_ = 0.0;                // of what is settled [s]
-  double s_ = 0.0;                   // length of what is settled [mm]
+  std::deque<OpenSegment> open_;
+  std::size_t next_look_ = kWindow;  // segments at which the next stretch is looked for
+  double start_ = 0.0;               // q at the begin of the first segment
+  double time_ = 0.0;                // of what is released [s]
+  double s_ = 0.0;                   // length of what is released [mm]
 };
 
 }  // namespace twin::feedrate

@@ -1,14 +1,18 @@
 #include "feedrate/certified/ascent.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/root.hpp"
+#include "feedrate/tolerances.hpp"
+
 namespace twin::feedrate {
 namespace {
 
-constexpr double kBelow = 1.0 - 1e-13;  // ratio of feedrates that differ by more than rounding
+/// A feedrate below this share of a limit cannot come to touch it. Nearer to 1 a step that is
+/// touched might be skipped by rounding; farther from it more steps are looked at than need be.
+constexpr double kBelow = 1.0 - 1e-13;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Time at which a rising phase has a feedrate; 0 where it is faster from its start.
@@ -20,22 +24,22 @@ double time_of(const Phase& phase, double v) noexcept {
 
 }  // namespace
 
-void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const Knot& knot,
+void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor,
                    Sense sense, const RampLimits& ramp, double ceiling) {
   zones_ = zones;
   next_zone_ = first;
-  origin_ = knot.s;
+  origin_ = anchor.s;
   sign_ = static_cast<double>(sense);
   a_max_ = ramp.acceleration;
   jerk_ = ramp.jerk;
-  ceiling_ = std::max(ceiling, knot.v);
-  highest_ = knot.v;
+  ceiling_ = std::max(ceiling, anchor.v);
+  highest_ = anchor.v;
   has_all_steps_ = is_complete_ = false;
   steps_.clear();
   step_ = 0;
   phases_.clear();
   tops_.clear();
-  at_ = {0.0, knot.v, 0.0};
+  at_ = {0.0, anchor.v, 0.0};
 }
 
 double Ascent::leaving_feedrate(const PathMotion& at) const noexcept {
@@ -112,23 +116,22 @@ double Ascent::touching(const Phase& phase, double time, const Step& step) const
     }
   }
   low = std::max(low, 0.0);
-  double high = std::min(time, time_of(phase, step.limit));
+  const double high = std::min(time, time_of(phase, step.limit));
+  if (!(high > low)) {
+    return low;
+  }
   const double rise = phase.j > 0.0 ? 2.0 * jerk_ : jerk_;  // of a, per time that -J is later
-  double t = high;
-  for (int i = 0; i < 100 && high - low > 1e-16 * high; ++i) {
+  const auto missing_at = [&](double t) {  // distance to the middle of the places that touch [mm]
     const PathMotion at = motion_at(phase, t);
     const double above = crossing(at, step.limit) - step.end;
-    if (above >= 0.0 && above < kTouchRounding) {
-      return t;
-    }
-    (above > 0.0 ? low : high) = t;
     const double a = std::sqrt(std::max(at.a * at.a - 2.0 * jerk_ * (step.limit - at.v), 0.0));
     const double later = (at.a - a) / jerk_;
     const double slope = rise * later * (0.5 * later - (a > 0.0 ? step.limit / a : kInfinity));
-    const double newton = t - (above - 0.5 * kTouchRounding) / slope;
-    t = newton > low && newton < high ? newton : 0.5 * (low + high);
-  }
-  return low;
+    return ValueAndSlope{0.5 * kTouchRounding - above, -slope};
+  };
+  const NewtonRoot root =
+      bracketed_newton(missing_at, low, high, high, {0.5 * kTouchRounding, 0.0, 0.0, 100});
+  return root.is_met ? root.x : root.low;
 }
 
 void Ascent::append(double duration, double jerk) {
@@ -142,7 +145,7 @@ void Ascent::append(double duration, double jerk) {
 
 /// -J until a step ends or a = 0, then no acceleration until it ends.
 void Ascent::follow(const Step& step) {
-  if (top() > step.limit * (1.0 + 1e-12)) {
+  if (top() > step.limit * (1.0 + kFormulaRounding)) {
     const double root =
         std::sqrt(std::max(at_.a * at_.a - 2.0 * jerk_ * (step.limit - at_.v), 0.0));
     append((at_.a - root) / jerk_, -jerk_);
@@ -169,7 +172,7 @@ void Ascent::extend() {
   while (step(step_).end <= at_.s + kTouchRounding) {
     ++step_;
   }
-  Phase phase{0.0, at_.s, at_.v, at_.a, at_.a < a_max_ * (1.0 - 1e-12) ? jerk_ : 0.0};
+  Phase phase{0.0, at_.s, at_.v, at_.a, at_.a < a_max_ * (1.0 - kFormulaRounding) ? jerk_ : 0.0};
   double time = std::max(longest(phase, ceiling_), 0.0);
   if (phase.j > 0.0) {
     time = std::min(time, (a_max_ - at_.a) / jerk_);

@@ -5,18 +5,36 @@
 #include <numbers>
 
 #include "feedrate/limits/axis_limits.hpp"
-#include "feedrate/limits/chord_limit.hpp"
-#include "feedrate/limits/segment_limits.hpp"
-#include "feedrate/limits/zone_row.hpp"
 
 namespace twin::feedrate {
 namespace {
 
-constexpr double kBetweenSamples = 1.003;  // curvature between two samples over that at them
-constexpr double kTwistMargin = 1.05;      // of the third derivative, beside its bulge
-constexpr double kValley = 0.5;            // of a bend's peak curvature, where it ends
-constexpr double kBesideBend = 0.01;       // of a bend's peak curvature, beside it
-constexpr int kArcParts = 48;              // of an arc, where axes have limits of their own
+/// Curvature between two samples, over the larger of the two. It follows from how closely curvature
+/// is sampled (see the class), and costs 0.15 % of the feedrate in bends.
+constexpr double kBetweenSamples = 1.003;
+
+/// Bound of the third derivative, over what three samples of it give. It covers what a parabola
+/// through them does not see, and costs 1.6 % of the feedrate where the jerk of an axis binds;
+/// twice the margin would cost 1.6 % more.
+constexpr double kTwistMargin = 1.05;
+
+/// A bend ends where the curvature has fallen to this share of its peak. A larger share cuts one
+/// bend in two, each of which may then seem brief; a smaller one joins neighbours that are two
+/// corners.
+constexpr double kValley = 0.5;
+
+/// Beside a bend the curvature is below this share of its peak. What lies beside a brief bend is
+/// not held at the bend's feedrate; a larger share would leave more of its flanks to the ramps.
+constexpr double kBesideBend = 0.01;
+
+/// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
+/// changes along it. With twice as many, half as much is lost by taking the worst of each part.
+constexpr int kArcParts = 48;
+
+/// Share of an axis's acceleration and jerk that counts as left to the motion along the path where
+/// a start that is too fast comes down. The feedrate may use 3/4 of the acceleration and 1/2 of the
+/// jerk (axis_limits.hpp), so twice as much could be too much, and the way down too short.
+constexpr double kRest = 0.25;
 
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
@@ -39,9 +57,13 @@ ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
           (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
 }
 
-/// Bounds between two places a, b with c between them: the third derivative is at most as far
-/// beyond the three as the middle one is off the mean of the others, each lower one at most as far
-/// from its value at the nearer place as the next one makes it.
+/// Upper bounds of |C'|, |C''| and |C'''| between two places a and b, from their values at a, at b
+/// and at the midpoint c.
+///
+/// |C'''| may exceed its largest sample by the bulge of the parabola through the three samples,
+/// |C'''(c) - (C'''(a) + C'''(b)) / 2|. |C''| may exceed its largest sample by a quarter of the
+/// interval times that bound, and |C'| likewise by the bound of |C''|: no place is farther than a
+/// quarter of the interval from a sample.
 PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByArcLength& b,
                           double length) {
   const auto largest = [](const Vec3& x, const Vec3& y, const Vec3& z) -> Vec3 {
@@ -61,6 +83,7 @@ PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByAr
 CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& model,
                                  const PathSettings& path, double period)
     : limits_(limits),
+      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       lasting_(limits, model, path, period),
       brief_(limits, with_circular_error(model, model.corner_error), path, period),
       chord_error_(path.chord_error),
@@ -68,10 +91,10 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       corner_error_(model.corner_error),
       has_axis_limits_(has_axis_limits(limits)) {}
 
-double CertifiedLimits::limit_at(const Interval& interval, double feedrate, bool is_fitted) const {
+double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On what) const {
   const LocalGeometry at{interval.curvature};
-  const double by_rule = interval.is_brief ? brief_.limit_at(at, feedrate, is_fitted)
-                                           : lasting_.limit_at(at, feedrate, is_fitted);
+  const double by_rule = interval.is_brief ? brief_.limit_at(at, feedrate, what)
+                                           : lasting_.limit_at(at, feedrate, what);
   double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
@@ -79,18 +102,17 @@ double CertifiedLimits::limit_at(const Interval& interval, double feedrate, bool
   return limit;
 }
 
-void CertifiedLimits::take_intervals(const path::FittedCurve& curve) {
+void CertifiedLimits::find_intervals(const path::FittedCurve& curve) {
   intervals_.clear();
   for (std::size_t i = 1; i < curve.curvature.size(); ++i) {
     const geometry::CurvatureSample& a = curve.curvature[i - 1];
     const geometry::CurvatureSample& b = curve.curvature[i];
-    intervals_.push_back(
-        {a.s, b.s, kBetweenSamples * std::max(a.curvature, b.curvature), false, false});
+    intervals_.push_back({a.s, b.s, kBetweenSamples * std::max(a.curvature, b.curvature)});
   }
 }
 
-/// Marks the intervals of bends that are no more than a rounded corner. A bend that is cut by an
-/// end of the curve lasts.
+/// Marks the intervals of brief bends. A bend that is cut by an end of the curve counts as one that
+/// lasts.
 void CertifiedLimits::find_brief_bends() {
   std::size_t begin = 0;
   while (begin < intervals_.size()) {
@@ -123,14 +145,15 @@ void CertifiedLimits::find_brief_bends() {
 
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
-  take_intervals(curve);
+  find_intervals(curve);
   if (!curve.is_programmed) {
     find_brief_bends();
   }
   ZoneRow row(zones);
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval& interval = intervals_[i];
-    LimitZone zone{s0 + interval.begin, s0 + interval.end, limit_at(interval, feedrate, true)};
+    LimitZone zone{s0 + interval.begin, s0 + interval.end,
+                   limit_at(interval, feedrate, On::kCurve)};
     if (has_axis_limits_) {
       const double u0 = curve.curvature[i].u;
       const double u1 = curve.curvature[i + 1].u;
@@ -155,9 +178,8 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
                                  std::vector<LimitZone>& zones) const {
   const auto* arc = std::get_if<path::Arc>(&segment.geometry);
   const Interval whole{0.0, segment.length,
-                       std::max(segment.begin.curvature.norm(), segment.end.curvature.norm()),
-                       false, false};
-  const double limit = limit_at(whole, feedrate, false);
+                       std::max(segment.begin.curvature.norm(), segment.end.curvature.norm())};
+  const double limit = limit_at(whole, feedrate, On::kArcOrLine);
   const int parts = arc != nullptr && has_axis_limits_ ? kArcParts : 1;
   ZoneRow row(zones);
   for (int i = 0; i < parts; ++i) {
@@ -177,11 +199,33 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
   }
 }
 
+void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) const {
+  LimitZone& before = zones[first - 1];
+  const LimitZone& zone = zones[first];
+  if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
+      before.limit == zone.limit && before.acceleration == zone.acceleration &&
+      before.jerk == zone.jerk) {
+    before.end = zone.end;
+    zones.erase(zones.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+RampLimits CertifiedLimits::least_ramp() const {
+  RampLimits least = ramp_;
+  for (int i = 0; i < 3; ++i) {
+    if (limits_.axis_acceleration[i] > 0.0) {
+      least.acceleration = std::min(least.acceleration, kRest * limits_.axis_acceleration[i]);
+    }
+    if (limits_.axis_jerk[i] > 0.0) {
+      least.jerk = std::min(least.jerk, kRest * limits_.axis_jerk[i]);
+    }
+  }
+  return least;
+}
+
 void CertifiedLimits::append(const path::Segment& segment, double s0, double feedrate,
                              std::vector<LimitZone>& zones) {
-  if (lasting_.needs_turning()) {
-    append_segment_limits(segment, s0, feedrate, lasting_, zones);
-  } else if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     append_curve(*curve, s0, feedrate, zones);
   } else {
     append_arc(segment, s0, feedrate, zones);

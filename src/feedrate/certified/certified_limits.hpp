@@ -4,35 +4,36 @@
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
-#include "feedrate/limits/feedrate_rule.hpp"
-#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/limits/zones.hpp"
+#include "feedrate/planner.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
 
-/// The feedrate limits inside segments with planning.planner = certified: between the places where
-/// the curvature is known, not only at them.
+/// The feedrate limits inside segments with planning.planner = certified. They hold between the
+/// places where the curvature is known, not only at them.
 ///
 /// In a zone the limit is the least of
-///   the feedrate asked for
-///   the rule's limit (feedrate_rule.hpp), normal acceleration kappa v^2 <= A_max with it
-///   the chord error of a period (chord_limit.hpp)
+///   the feedrate asked for,
+///   the limit of the rule (FeedrateRules), and with it the normal acceleration kappa v^2 <= A_max,
+///   the feedrate at which the chord of a period keeps the chord tolerance (chord_error_feedrate),
 ///   the limits of each axis (axis_limits.hpp), where they are set.
 ///
-/// A bend that rounds a corner within the corner error may err by the corner error; only curvature
-/// that lasts is held to the circular error. A bend of turn phi and curvature kappa is that brief
-/// where the corner of the tangents at its ends is near it:
+/// A brief bend is a rounded corner: it may err by the corner error. Only curvature that lasts is
+/// held to the circular error. A bend of turn phi and curvature kappa is brief if the tangents at
+/// its ends meet in a point that is near it:
 ///   (1 / cos(phi / 2) - 1) / kappa <= corner error.
 /// Bends are told apart where the curvature falls to half of its peak.
 ///
-/// Where axes have limits of their own, a brief bend is one zone with its lowest limit: little A
-/// and J is left in it, and as a valley it is passed at one feedrate, so that the ramps beside it
-/// need not do with that little.
+/// With limits of single axes, a brief bend becomes one zone at its lowest feedrate. Inside the
+/// bend the axes leave little acceleration and jerk for the motion along the path. Passing it at
+/// constant feedrate keeps those low values out of the ramps before and after it.
 ///
-/// The curvature of a FittedCurve is sampled four times on each interval of its arc length, and
-/// those are divided until |C'| varies by less than 4 % (nurbs/arc_length.hpp); then C' x C'', a
-/// polynomial of degree 2, and |C'|^2 are within 0.3 % of the larger end between two samples.
-class CertifiedLimits {
+/// The curvature of a FittedCurve is sampled four times on each interval of its arc length, and the
+/// intervals are divided until |C'| varies by less than 4 % (geometry/nurbs/arc_length.hpp). Then
+/// C' x C'', a polynomial of degree 2, and |C'|^2 exceed the larger of two neighbouring samples by
+/// at most 0.3 %.
+class CertifiedLimits final : public LimitSource {
  public:
   /// @param period  interpolation period [s]
   CertifiedLimits(const Limits& limits, const PlanningModel& model, const PathSettings& path,
@@ -41,19 +42,23 @@ class CertifiedLimits {
   /// Appends the zones of a segment that begins at s0.
   /// @param feedrate  asked for on it [mm/s]
   void append(const path::Segment& segment, double s0, double feedrate,
-              std::vector<LimitZone>& zones);
+              std::vector<LimitZone>& zones) override;
+  /// Makes the zone part of the one before it where both have the same limits.
+  void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
+  RampLimits least_ramp() const override;
+  bool has_zone_ramps() const override { return has_axis_limits_; }
 
  private:
   struct Interval {
     double begin;  // [mm]
     double end;
     double curvature;  // largest in it [1/mm]
-    bool is_brief;
-    bool is_held;  // passed at one feedrate with the interval before it
+    bool is_brief = false;
+    bool is_held = false;  // passed at one feedrate with the interval before it
   };
 
-  double limit_at(const Interval& interval, double feedrate, bool is_fitted) const;
-  void take_intervals(const path::FittedCurve& curve);
+  double limit_at(const Interval& interval, double feedrate, On what) const;
+  void find_intervals(const path::FittedCurve& curve);
   void find_brief_bends();
   void append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                     std::vector<LimitZone>& zones);
@@ -61,6 +66,7 @@ class CertifiedLimits {
                   std::vector<LimitZone>& zones) const;
 
   Limits limits_;
+  RampLimits ramp_;
   FeedrateRules lasting_;
   FeedrateRules brief_;
   double chord_error_;

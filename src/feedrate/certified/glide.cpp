@@ -1,14 +1,22 @@
 #include "feedrate/certified/glide.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
 
 const Ascent kNoAscent;
-constexpr std::size_t kStepsPerZone = 8;  // after which there is no plan
+
+/// How often a leg may be lowered, for each of its zones, before planning gives up. It is there so
+/// that planning ends; twice as many would only make a plan that fails take twice as long.
+constexpr std::size_t kStepsPerZone = 8;
+
+/// Anchors at one place have one feedrate [-]: their difference is rounding of the plan, and what
+/// it would take to pass from one to the other is far below what a period shows.
+constexpr double kSamePlaceFeedrate = 1e-6;
 
 /// Whether a phase that rises passes a place faster than a limit.
 bool is_faster_rising(const Phase& phase, double s, double limit) {
@@ -24,7 +32,7 @@ bool is_faster_rising(const Phase& phase, double s, double limit) {
   return motion_at(phase, t).s < s - kPlaceRounding;
 }
 
-/// The same for one that falls.
+/// Whether a phase that falls passes a place faster than a limit.
 bool is_faster_falling(const Phase& phase, double s, double limit) {
   if (phase.v <= limit * (1.0 + kFeedrateRounding)) {
     return false;
@@ -40,7 +48,7 @@ bool is_faster_falling(const Phase& phase, double s, double limit) {
 
 }  // namespace
 
-bool Glide::plan(std::span<const LimitZone> zones, const Knot& start, const Knot& end,
+bool Glide::plan(std::span<const LimitZone> zones, const Anchor& start, const Anchor& end,
                  const RampLimits& ramp) {
   zones_ = zones;
   ramp_ = ramp;
@@ -59,13 +67,13 @@ bool Glide::plan(std::span<const LimitZone> zones, const Knot& start, const Knot
     free_.push_back(&ascent);
   }
   const RampLimits whole = ramp_of(0, zones.size());
-  pending_.push_back({start, end, ascent_from(start, Sense::kForward, 0, whole),
-                      ascent_from(end, Sense::kBackward, zones.size() - 1, whole), 0, zones.size(),
-                      whole});
+  Ascent* up = ascent_from(start, Sense::kForward, 0, whole);
+  Ascent* down = ascent_from(end, Sense::kBackward, zones.size() - 1, whole);
+  pending_.push_back({start, end, up, down, 0, zones.size(), whole});
   while (!pending_.empty()) {
-    const Piece piece = pending_.back();
+    const Leg leg = pending_.back();
     pending_.pop_back();
-    if (!settle(piece)) {
+    if (!plan_leg(leg)) {
       return false;
     }
   }
@@ -81,177 +89,191 @@ RampLimits Glide::ramp_of(std::size_t first, std::size_t last) const {
   return least;
 }
 
-Ascent* Glide::ascent_from(const Knot& knot, Sense sense, std::size_t zone,
+Ascent* Glide::ascent_from(const Anchor& anchor, Sense sense, std::size_t zone,
                            const RampLimits& ramp) {
   if (free_.empty()) {
     free_.push_back(&ascents_.emplace_back());
   }
   Ascent* ascent = free_.back();
   free_.pop_back();
-  ascent->start(zones_, zone, knot, sense, ramp, ceiling_);
+  ascent->start(zones_, zone, anchor, sense, ramp, ceiling_);
   return ascent;
 }
 
-void Glide::give_back(Piece& piece) {
-  free_.push_back(piece.up);
-  free_.push_back(piece.down);
+void Glide::release(const Leg& leg) {
+  free_.push_back(leg.up);
+  free_.push_back(leg.down);
 }
 
-bool Glide::settle(Piece piece) {
-  const double length = piece.b.s - piece.a.s;
-  if (piece.up == nullptr) {
-    phases_.push_back({length / piece.a.v, piece.a.s, piece.a.v, 0.0, 0.0});
+/// Appends the phases of a leg, or leaves the legs that it is split into pending.
+/// @returns false where the start is too fast
+bool Glide::plan_leg(Leg leg) {
+  const double length = leg.b.s - leg.a.s;
+  if (leg.up == nullptr) {
+    phases_.push_back({length / leg.a.v, leg.a.s, leg.a.v, 0.0, 0.0});
     return true;
   }
   if (length <= kPlaceRounding) {
-    give_back(piece);
-    return std::abs(piece.a.v - piece.b.v) <= 1e-6 * (1.0 + piece.a.v);
+    release(leg);
+    return std::abs(leg.a.v - leg.b.v) <= kSamePlaceFeedrate * (1.0 + leg.a.v);
   }
-  for (std::size_t i = 0; i <= kStepsPerZone * (piece.last - piece.first) + 8; ++i) {
-    const bool is_joined = climb(piece);
-    Violation worst{};
-    if (!find_violation(piece, worst)) {
-      if (is_joined) {
-        parts_.push_back({phases_.size(), phases_.size() + descent_});
-        phases_.insert(phases_.end(), summit_.begin(), summit_.end());
-        give_back(piece);
+  for (std::size_t i = 0; i <= kStepsPerZone * (leg.last - leg.first) + 8; ++i) {
+    climb(leg);
+    const auto worst = find_violation(leg);
+    if (!worst) {
+      if (climb_.is_joined) {
+        parts_.push_back({phases_.size(), phases_.size() + climb_.descent});
+        phases_.insert(phases_.end(), climb_.phases.begin(), climb_.phases.end());
+        release(leg);
       }
-      return is_joined;
+      return climb_.is_joined;
     }
-    bool is_split = false;
-    if (!resolve(piece, worst, is_split)) {
-      return false;
-    }
-    if (is_split) {
-      return true;
+    switch (resolve(leg, *worst)) {
+      case Resolution::kImpossible:
+        return false;
+      case Resolution::kSplit:
+        return true;
+      case Resolution::kLowered:
+        break;
     }
   }
   return false;
 }
 
-/// Finds the summit of a piece. Where its start is too fast for that, the descent to its end is
-/// taken alone: a zone that it does not keep may be a valley that can be reached.
-bool Glide::climb(const Piece& piece) {
-  const double v_least = std::max(piece.a.v, piece.b.v);
+/// Finds the summit of a leg. Where its start is too fast for one, the descent to its end is taken
+/// alone: a zone that it does not keep may be a valley that can be reached.
+void Glide::climb(const Leg& leg) {
+  const double v_least = std::max(leg.a.v, leg.b.v);
+  auto joined = join(*leg.up, *leg.down, leg.b.s - leg.a.s, v_least, std::max(leg.cap, v_least));
   Summit summit;
-  const bool is_joined = join(*piece.up, *piece.down, piece.b.s - piece.a.s, v_least,
-                              std::max(piece.cap, v_least), summit);
-  if (!is_joined) {
-    summit.v = std::min(piece.a.v, piece.down->top());
+  if (joined) {
+    summit = *joined;
+  } else {
+    summit.v = std::min(leg.a.v, leg.down->top());
     summit.up = {0, 0.0, {0.0, summit.v, 0.0}, 0.0};
-    summit.down = piece.down->exit_at(summit.v);
+    summit.down = leg.down->exit_at(summit.v);
     summit.length = summit.down.distance;
   }
-  summit_.clear();
-  descent_ = append_phases(summit, is_joined ? *piece.up : kNoAscent, *piece.down,
-                           piece.b.s - summit.length, piece.ramp.jerk, summit_);
-  turn_ = descent_ < summit_.size() ? summit_[descent_].s : piece.b.s;
-  peak_ = summit.v;
-  return is_joined;
+  climb_.phases.clear();
+  climb_.descent = append_phases(summit, joined ? *leg.up : kNoAscent, *leg.down,
+                                 leg.b.s - summit.length, leg.ramp.jerk, climb_.phases);
+  climb_.turn = climb_.descent < climb_.phases.size() ? climb_.phases[climb_.descent].s : leg.b.s;
+  climb_.peak = summit.v;
+  climb_.is_joined = joined.has_value();
 }
 
-/// Whether the summit at hand passes a place faster than a limit.
-/// @param phase  one that is not beyond the place; becomes the one with the place
-bool Glide::is_faster(double s, double limit, std::size_t& phase) const {
-  while (phase + 1 < summit_.size() && summit_[phase + 1].s <= s) {
-    ++phase;
+/// The phase of the summit at hand with a place.
+/// @param from  a phase that is not beyond it
+std::size_t Glide::phase_at(double s, std::size_t from) const {
+  while (from + 1 < climb_.phases.size() && climb_.phases[from + 1].s <= s) {
+    ++from;
   }
-  return phase < descent_ ? is_faster_rising(summit_[phase], s, limit)
-                          : is_faster_falling(summit_[phase], s, limit);
+  return from;
+}
+
+/// Whether the summit at hand passes a place, which lies in a phase, faster than a limit.
+bool Glide::is_faster(std::size_t phase, double s, double limit) const {
+  return phase < climb_.descent ? is_faster_rising(climb_.phases[phase], s, limit)
+                                : is_faster_falling(climb_.phases[phase], s, limit);
 }
 
 /// The zone of the lowest limit that the summit at hand does not keep; of several, the middle one.
-bool Glide::find_violation(const Piece& piece, Violation& worst) const {
-  const std::size_t middle = piece.first + (piece.last - piece.first) / 2;
+std::optional<std::size_t> Glide::lowest_violated(const Leg& leg) const {
+  const std::size_t middle = leg.first + (leg.last - leg.first) / 2;
   const auto off = [&](std::size_t i) { return i > middle ? i - middle : middle - i; };
-  bool is_found = false;
+  std::optional<std::size_t> worst;
   std::size_t phase = 0;
-  for (std::size_t i = piece.first; i < piece.last; ++i) {
+  for (std::size_t i = leg.first; i < leg.last; ++i) {
     const LimitZone& zone = zones_[i];
-    if (zone.limit * (1.0 + kFeedrateRounding) >= peak_) {
+    if (zone.limit * (1.0 + kFeedrateRounding) >= climb_.peak) {
       continue;
     }
-    if (is_found && (zone.limit > zones_[worst.zone].limit ||
-                     (zone.limit == zones_[worst.zone].limit && off(i) > off(worst.zone)))) {
+    if (worst && (zone.limit > zones_[*worst].limit ||
+                  (zone.limit == zones_[*worst].limit && off(i) > off(*worst)))) {
       continue;
     }
-    const double begin = std::max(zone.begin, piece.a.s);
-    const double end = std::min(zone.end, piece.b.s);
-    const bool is_fast = end <= turn_     ? is_faster(end, zone.limit, phase)
-                         : begin >= turn_ ? is_faster(begin, zone.limit, phase)
-                                          : true;
+    const double begin = std::max(zone.begin, leg.a.s);
+    const double end = std::min(zone.end, leg.b.s);
+    bool is_fast = true;  // with the highest feedrate in the zone
+    if (end <= climb_.turn || begin >= climb_.turn) {
+      const double s = end <= climb_.turn ? end : begin;
+      phase = phase_at(s, phase);
+      is_fast = is_faster(phase, s, zone.limit);
+    }
     if (is_fast) {
-      is_found = true;
-      worst.zone = i;
+      worst = i;
     }
   }
-  if (is_found) {
-    const LimitZone& zone = zones_[worst.zone];
-    const auto is_fast_at = [&](double s) {
-      std::size_t at = 0;
-      return s > piece.a.s + kPlaceRounding && s < piece.b.s - kPlaceRounding &&
-             is_faster(s, zone.limit, at);
-    };
-    worst.enters = is_fast_at(zone.begin);
-    worst.leaves = is_fast_at(zone.end);
-  }
-  return is_found;
+  return worst;
 }
 
-bool Glide::resolve(Piece& piece, const Violation& violation, bool& is_split) {
+std::optional<Glide::Violation> Glide::find_violation(const Leg& leg) const {
+  const auto worst = lowest_violated(leg);
+  if (!worst) {
+    return std::nullopt;
+  }
+  const LimitZone& zone = zones_[*worst];
+  const auto is_fast_at = [&](double s) {
+    return s > leg.a.s + kPlaceRounding && s < leg.b.s - kPlaceRounding &&
+           is_faster(phase_at(s, 0), s, zone.limit);
+  };
+  return Violation{*worst, is_fast_at(zone.begin), is_fast_at(zone.end)};
+}
+
+Glide::Resolution Glide::resolve(Leg& leg, const Violation& violation) {
   const LimitZone& zone = zones_[violation.zone];
   const double v = zone.limit;
-  const double room_up = zone.begin - piece.a.s;
-  const double room_down = piece.b.s - zone.end;
+  const double room_up = zone.begin - leg.a.s;
+  const double room_down = leg.b.s - zone.end;
   bool is_on_way_up = violation.leaves;
   bool is_on_way_down = violation.enters;
   if (violation.enters && violation.leaves) {
     const double way_in =
-        v < piece.a.v ? ramp_distance(piece.a.v, v, piece.ramp) : piece.up->exit_at(v).distance;
+        v < leg.a.v ? ramp_distance(leg.a.v, v, leg.ramp) : leg.up->exit_at(v).distance;
     const bool has_in = way_in <= room_up + kPlaceRounding;
     const bool has_out =
-        v >= piece.b.v && piece.down->exit_at(v).distance <= room_down + kPlaceRounding;
+        v >= leg.b.v && leg.down->exit_at(v).distance <= room_down + kPlaceRounding;
     if (has_in && has_out) {
-      split(piece, violation.zone);
-      is_split = true;
-      return true;
+      split(leg, violation.zone);
+      return Resolution::kSplit;
     }
-    is_on_way_up = !has_in && (has_out || zone.end <= turn_);
-    is_on_way_down = !has_out && (has_in || zone.begin >= turn_);
+    is_on_way_up = !has_in && (has_out || zone.end <= climb_.turn);
+    is_on_way_down = !has_out && (has_in || zone.begin >= climb_.turn);
   }
-  if (is_on_way_down && v >= piece.b.v) {
-    piece.down->lower(piece.b.s - zone.begin, v);
-  } else if (is_on_way_up && v >= piece.a.v) {
-    piece.up->lower(zone.end - piece.a.s, v);
-  } else if (v >= std::max(piece.a.v, piece.b.v)) {
-    piece.cap = std::min(piece.cap, v);
+  if (is_on_way_down && v >= leg.b.v) {
+    leg.down->lower(leg.b.s - zone.begin, v);
+  } else if (is_on_way_up && v >= leg.a.v) {
+    leg.up->lower(zone.end - leg.a.s, v);
+  } else if (v >= std::max(leg.a.v, leg.b.v)) {
+    leg.cap = std::min(leg.cap, v);
   } else {
-    return false;
+    return Resolution::kImpossible;
   }
-  return true;
+  return Resolution::kLowered;
 }
 
-void Glide::split(Piece& piece, std::size_t index) {
+/// Splits a leg at a valley: the leg before it, the hold in it, the leg after it.
+void Glide::split(const Leg& leg, std::size_t index) {
   const LimitZone& zone = zones_[index];
   const bool is_place = zone.end - zone.begin <= kPlaceRounding;
-  const Knot in{zone.begin, zone.limit};
-  const Knot out{is_place ? zone.begin : zone.end, zone.limit};
-  Piece left{piece.a, in, piece.up, nullptr, piece.first, index, piece.ramp};
-  Piece right{out, piece.b, nullptr, piece.down, index + 1, piece.last, piece.ramp};
-  left.cap = right.cap = piece.cap;
+  const Anchor in{zone.begin, zone.limit};
+  const Anchor out{is_place ? zone.begin : zone.end, zone.limit};
+  Leg left{leg.a, in, leg.up, nullptr, leg.first, index, leg.ramp};
+  Leg right{out, leg.b, nullptr, leg.down, index + 1, leg.last, leg.ramp};
+  left.cap = right.cap = leg.cap;
   if (has_zone_ramps_) {
     left.ramp = ramp_of(left.first, left.last);
     right.ramp = ramp_of(right.first, right.last);
-    give_back(piece);
-    left.up = ascent_from(piece.a, Sense::kForward, left.first, left.ramp);
-    right.down = ascent_from(piece.b, Sense::kBackward, right.last - 1, right.ramp);
+    release(leg);
+    left.up = ascent_from(leg.a, Sense::kForward, left.first, left.ramp);
+    right.down = ascent_from(leg.b, Sense::kBackward, right.last - 1, right.ramp);
   }
   left.down = ascent_from(in, Sense::kBackward, index - 1, left.ramp);
   right.up = ascent_from(out, Sense::kForward, index + 1, right.ramp);
-  // Pieces are pushed last first, so that they are settled in path order.
+  // Legs are pushed last first, so that they are planned in path order.
   pending_.push_back(right);
   if (!is_place) {
-    pending_.push_back({in, out, nullptr, nullptr, index, index + 1, piece.ramp});
+    pending_.push_back({in, out, nullptr, nullptr, index, index + 1, leg.ramp});
   }
   pending_.push_back(left);
 }

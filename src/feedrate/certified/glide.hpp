@@ -1,35 +1,39 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "feedrate/certified/ascent.hpp"
 #include "feedrate/certified/summit.hpp"
-#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/limits/zones.hpp"
 
 namespace twin::feedrate {
 
-/// Jerk-limited feedrate under limits that depend on the place: summits between knots, and knots
-/// only in the valleys of the limits.
+/// Jerk-limited feedrate under limits that depend on the place: summits between anchors, with
+/// anchors only in the valleys of the limits.
 ///
 ///   limit  ---.              .--------.
 ///             '-.   ____   .-'        '-.      ____
 ///   feed   ___  '-./    \.-'   ______    '-.--'
 ///             \.__/      \.___/      \.____/
-///                 knot       knot          knot
+///                anchor     anchor      anchor
 ///
-/// 1. Take one summit from start to end.
-/// 2. Find, of all zones in which it is too fast, the one with the lowest limit.
-/// 3. Where both sides have room to come to its limit with no acceleration, it is a valley: knots
-///    where it begins and ends, and the same for the pieces. Else it is on the way up of one side
-///    or on the way down of the other: that ascent is kept under its limit up to its far end, which
-///    it then passes with acceleration. Else it is the highest feedrate of the piece.
-/// Zones with low limits are settled first and each step lowers the feedrate everywhere, so a zone
-/// that was kept stays kept, and a knot, whose limit is no higher than those still to be settled,
-/// can always be reached. From rest there is always a plan.
+/// The part of the path between two anchors is a leg.
+///   1. Take one summit from start to end.
+///   2. Find, of all zones in which it is too fast, the one with the lowest limit.
+///   3. If both sides have room to come to that limit without acceleration, the zone is a valley.
+///      Anchors are put where it begins and where it ends, and the new legs are planned in the same
+///      way. If not, the zone lies on the way up of one side or on the way down of the other. That
+///      ascent is then clamped to the zone's limit up to the zone's far end, which it passes with
+///      acceleration. If the zone lies on neither, its limit caps the whole leg.
+/// Zones with low limits come first and each step lowers the feedrate everywhere, so a zone that
+/// was kept stays kept. An anchor is no faster than the limits of zones that come later, so it can
+/// always be reached. From rest there is always a plan.
 class Glide {
  public:
   /// One summit of the result.
@@ -42,7 +46,7 @@ class Glide {
   ///
   /// @param ramp  of the machine; zones may allow less
   /// @returns false if the start is too fast for what follows; the result then means nothing
-  bool plan(std::span<const LimitZone> zones, const Knot& start, const Knot& end,
+  bool plan(std::span<const LimitZone> zones, const Anchor& start, const Anchor& end,
             const RampLimits& ramp);
 
   /// Result, in path order.
@@ -50,9 +54,9 @@ class Glide {
   const std::vector<Part>& parts() const noexcept { return parts_; }
 
  private:
-  struct Piece {
-    Knot a;
-    Knot b;
+  struct Leg {
+    Anchor a;
+    Anchor b;
     Ascent* up;  // from a; null where the feedrate is held from a to b
     Ascent* down;
     std::size_t first;  // zones [first, last) lie between a and b
@@ -60,21 +64,32 @@ class Glide {
     RampLimits ramp;
     double cap = std::numeric_limits<double>::infinity();
   };
+  /// The summit of the leg at hand.
+  struct Climb {
+    std::vector<Phase> phases;
+    std::size_t descent = 0;  // first phase of the descent
+    double turn = 0.0;        // place where the descent begins [mm]
+    double peak = 0.0;        // highest feedrate [mm/s]
+    bool is_joined = false;  // else the start is too fast, and this is the descent to the end alone
+  };
   struct Violation {
     std::size_t zone;
     bool enters;  // too fast where the zone begins
     bool leaves;  // too fast where it ends
   };
+  enum class Resolution : std::uint8_t { kSplit, kLowered, kImpossible };
 
-  Ascent* ascent_from(const Knot& knot, Sense sense, std::size_t zone, const RampLimits& ramp);
-  void give_back(Piece& piece);
+  Ascent* ascent_from(const Anchor& anchor, Sense sense, std::size_t zone, const RampLimits& ramp);
+  void release(const Leg& leg);
   RampLimits ramp_of(std::size_t first, std::size_t last) const;
-  bool settle(Piece piece);
-  bool climb(const Piece& piece);
-  bool find_violation(const Piece& piece, Violation& worst) const;
-  bool is_faster(double s, double limit, std::size_t& phase) const;
-  bool resolve(Piece& piece, const Violation& violation, bool& is_split);
-  void split(Piece& piece, std::size_t zone);
+  bool plan_leg(Leg leg);
+  void climb(const Leg& leg);
+  std::optional<Violation> find_violation(const Leg& leg) const;
+  std::optional<std::size_t> lowest_violated(const Leg& leg) const;
+  std::size_t phase_at(double s, std::size_t from) const;
+  bool is_faster(std::size_t phase, double s, double limit) const;
+  Resolution resolve(Leg& leg, const Violation& violation);
+  void split(const Leg& leg, std::size_t zone);
 
   std::span<const LimitZone> zones_;
   RampLimits ramp_{};
@@ -82,11 +97,8 @@ class Glide {
   double ceiling_ = 0.0;
   std::deque<Ascent> ascents_;
   std::vector<Ascent*> free_;
-  std::vector<Piece> pending_;
-  std::vector<Phase> summit_;  // of the piece at hand
-  std::size_t descent_ = 0;    // its first phase of the descent
-  double turn_ = 0.0;          // place where its descent begins [mm]
-  double peak_ = 0.0;          // its highest feedrate [mm/s]
+  std::vector<Leg> pending_;
+  Climb climb_;
   std::vector<Phase> phases_;
   std::vector<Part> parts_;
 };

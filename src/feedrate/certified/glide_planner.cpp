@@ -4,17 +4,46 @@
 #include <cmath>
 #include <limits>
 
-#include "feedrate/paper/envelope.hpp"
 #include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
 
+/// Path between two plans, in longest braking distances. It trades work for delay: what a plan does
+/// not make final is planned again, so each zone is planned about 1.5 times. Twice as many bring
+/// that nearer to once, and the first segment waits twice as long.
+constexpr double kBrakingDistances = 4.0;
+
+/// Segments in the window at which it is planned to rest, though more follow. It bounds memory and
+/// the time of one plan. Twice as many double both, and a path of segments half as long goes
+/// through without a stop.
+constexpr std::size_t kMostSegments = 16384;
+
+/// Fewest zones between two plans where their number makes a plan due. It keeps a path of many
+/// zones from waiting for its braking distances; twice as many double that wait and the window.
+constexpr std::size_t kFewestZones = 1024;
+
 bool is_level(const Phase& phase) { return phase.a == 0.0; }
 
 }  // namespace
 
-void GlidePlanner::advance(Window& window, double last, bool is_last) {
+bool GlidePlanner::is_due(const Window& window) const {
+  return window.length >= due_.length || window.segments.size() >= due_.segments ||
+         window.zones.size() >= due_.zones;
+}
+
+void GlidePlanner::schedule(const Window& window) {
+  const double braking = longest_descent(window.fastest, window.fastest, ramp_);
+  due_.length = window.length + kBrakingDistances * braking + corner_reach_;
+  due_.segments = std::max(window.segments.size() + look_ahead_, kMostSegments / 4);
+  due_.zones = window.zones.size() + std::max(window.zones.size(), kFewestZones);
+}
+
+void GlidePlanner::advance(Window& window, double horizon, Tail tail) {
+  if (tail == Tail::kOpen && window.segments.size() >= kMostSegments) {
+    ++fallbacks_;
+    tail = Tail::kClosed;  // the window is full: it is planned to rest
+  }
   least_ = ramp_;
   fastest_ = 0.0;
   for (const LimitZone& zone : window.zones) {
@@ -22,14 +51,16 @@ void GlidePlanner::advance(Window& window, double last, bool is_last) {
     least_.acceleration = std::min(least_.acceleration, zone.acceleration);
     least_.jerk = std::min(least_.jerk, zone.jerk);
   }
-  while (!plan(window, last)) {
-    if (!fall_back(window, last, is_last)) {
+  while (!plan_until(window, horizon)) {
+    if (!fall_back(window, horizon, tail)) {
       return;
     }
   }
-  commit(window, is_last ? Cut{plan_.size(), 0.0} : last_final(window, last));
-  if (is_last) {
-    window.start = {last, 0.0};
+  if (tail == Tail::kClosed) {
+    commit(window, {plan_.size(), 0.0});
+    window.start = {horizon, 0.0};
+  } else {
+    commit(window, last_final(window, horizon));
   }
 }
 
@@ -39,15 +70,15 @@ void GlidePlanner::forget(double distance) {
   }
 }
 
-bool GlidePlanner::plan(const Window& window, double last) {
-  const Knot& start = window.start;
+bool GlidePlanner::plan_until(const Window& window, double horizon) {
+  const Anchor& start = window.start;
   const auto from =
       std::find_if(window.zones.begin(), window.zones.end(),
                    [&](const LimitZone& zone) { return zone.end > start.s + kPlaceRounding; });
   const auto to = std::partition_point(from, window.zones.end(), [&](const LimitZone& zone) {
-    return zone.begin < last - kPlaceRounding;
+    return zone.begin < horizon - kPlaceRounding;
   });
-  if (!glide_.plan({from, to}, start, {last, 0.0}, ramp_)) {
+  if (!glide_.plan({from, to}, start, {horizon, 0.0}, ramp_)) {
     return false;
   }
   plan_ = glide_.phases();
@@ -55,24 +86,24 @@ bool GlidePlanner::plan(const Window& window, double last) {
 }
 
 /// Makes the next plan possible; false where that needs more of the path.
-bool GlidePlanner::fall_back(Window& window, double last, bool is_last) {
+bool GlidePlanner::fall_back(Window& window, double horizon, Tail tail) {
   if (!plan_.empty()) {
     ++fallbacks_;
     commit(window, next_level());
     return true;
   }
-  if (!is_last) {
+  if (tail == Tail::kOpen) {
     return false;
   }
   ++fallbacks_;
-  if (!raise_limits(window, last, least_)) {
+  if (!raise_limits(window, horizon, least_)) {
     window.start.v = 0.0;
   }
   return true;
 }
 
-/// Distance of the descent, under the limits before it, to a zone from a feedrate, or more than
-/// `most` [mm].
+/// Distance that the descent from a feedrate to a zone takes under the limits before it [mm]; any
+/// larger number where it takes more than `most`.
 double GlidePlanner::descent_to(const Window& window, std::size_t zone, double v, double most) {
   const LimitZone& valley = window.zones[zone];
   probe_.start(window.zones, zone - 1, {valley.begin, valley.limit}, Sense::kBackward, least_,
@@ -83,41 +114,42 @@ double GlidePlanner::descent_to(const Window& window, std::size_t zone, double v
   return probe_.top() < v ? std::numeric_limits<double>::infinity() : probe_.exit_at(v).distance;
 }
 
-/// How far a hold may go on and still leave room to come down, with no acceleration, to any valley
-/// of the limits before `last`, and to any feedrate at all at `last`; negative where it is too far
-/// already.
-double GlidePlanner::room_after(const Window& window, const Knot& knot, double last) {
-  double room = last - knot.s - longest_descent(knot.v, knot.v, least_);
+/// How far a hold may go on and still leave room to come down [mm]: to each valley of the limits
+/// before the horizon, and to any feedrate at all at the horizon, both without acceleration. It is
+/// negative where the hold is too far on already.
+double GlidePlanner::room_after(const Window& window, const Anchor& anchor, double horizon) {
+  double room = horizon - anchor.s - longest_descent(anchor.v, anchor.v, least_);
   const auto& zones = window.zones;
   const auto from = std::partition_point(zones.begin(), zones.end(), [&](const LimitZone& zone) {
-    return zone.end <= knot.s + kPlaceRounding;
+    return zone.end <= anchor.s + kPlaceRounding;
   });
   for (auto i = static_cast<std::size_t>(from - zones.begin());
-       room >= 0.0 && i < zones.size() && zones[i].begin < last; ++i) {
+       room >= 0.0 && i < zones.size() && zones[i].begin < horizon; ++i) {
     const bool is_valley = i + 1 == zones.size() || zones[i + 1].limit > zones[i].limit;
-    if (is_valley && zones[i].limit < knot.v) {
-      const double most = zones[i].begin - knot.s;
-      room = std::min(room, most - descent_to(window, i, knot.v, most));
+    if (is_valley && zones[i].limit < anchor.v) {
+      const double most = zones[i].begin - anchor.s;
+      room = std::min(room, most - descent_to(window, i, anchor.v, most));
     }
   }
   return room;
 }
 
-GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double last) {
+/// The last place of the plan that no segment to come can change.
+GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double horizon) {
   const Glide::Part& part = glide_.parts().back();
   for (std::size_t i = part.descent + 1; i-- > part.first;) {
     if (i >= plan_.size() || !is_level(plan_[i])) {
       continue;
     }
     const Phase& phase = plan_[i];
-    const double room = room_after(window, {phase.s, phase.v}, last);
+    const double room = room_after(window, {phase.s, phase.v}, horizon);
     if (room < -kPlaceRounding) {
       continue;
     }
     const bool is_hold = phase.j == 0.0 && phase.v > 0.0 && i < part.descent;
     return {i, is_hold ? std::min(phase.duration, std::max(room, 0.0) / phase.v) : 0.0};
   }
-  // The last knot is too close to the window's end: one summit back it is not.
+  // The last anchor is too close to the window's end: one summit back it is not.
   return {glide_.parts().size() > 1 ? std::prev(glide_.parts().end(), 2)->first : 0, 0.0};
 }
 
@@ -130,6 +162,7 @@ GlidePlanner::Cut GlidePlanner::next_level() const {
   return {i, 0.0};
 }
 
+/// Makes the plan final up to a place: its phases go to the window, which starts there then.
 void GlidePlanner::commit(Window& window, const Cut& cut) {
   const auto done = plan_.begin() + static_cast<std::ptrdiff_t>(cut.phase);
   window.phases.insert(window.phases.end(), plan_.begin(), done);

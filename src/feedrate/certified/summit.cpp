@@ -1,8 +1,10 @@
 #include "feedrate/certified/summit.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/root.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -16,7 +18,8 @@ void append(std::vector<Phase>& phases, PathMotion& at, double duration, double 
 
 }  // namespace
 
-bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, Summit& summit) {
+std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_least, double cap) {
+  Summit summit;
   const auto room_at = [&](double v) {
     summit.up = up.exit_at(v);
     summit.down = down.exit_at(v);
@@ -33,43 +36,25 @@ bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, S
   }
   double high = std::min({up.top(), down.top(), cap});
   if (high < v_least) {
-    if (high < v_least * (1.0 - 1e-12)) {
-      return false;
+    if (high < v_least * (1.0 - kFormulaRounding)) {
+      return std::nullopt;
     }
     high = v_least;
   }
   summit.v = high;
-  double f_high = room_at(high);
-  if (f_high >= 0.0) {
-    return true;
+  const double room_high = room_at(high);
+  if (room_high >= 0.0) {
+    return summit;
   }
-  double low = v_least;
-  double f_low = room_at(low);
-  summit.v = low;
-  if (f_low < 0.0) {
-    return f_low >= -kDistanceRounding;
+  const double room_low = room_at(v_least);
+  summit.v = v_least;
+  if (room_low < 0.0) {
+    return room_low >= -kDistanceRounding ? std::optional(summit) : std::nullopt;
   }
-  for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
-    double v = (low * f_high - high * f_low) / (f_high - f_low);
-    if (i % 3 == 2 || !(v > low && v < high)) {
-      v = 0.5 * (low + high);
-    }
-    const double f = room_at(v);
-    if (f < 0.0) {
-      high = v;
-      f_high = f;
-      f_low *= i % 3 == 2 ? 1.0 : 0.5;
-    } else {
-      low = v;
-      f_low = f;
-      f_high *= i % 3 == 2 ? 1.0 : 0.5;
-      if (f < 0.1 * kDistanceRounding) {
-        break;
-      }
-    }
-  }
-  summit.v = low;
-  return room_at(low) >= 0.0;
+  const auto missing_at = [&](double v) { return -room_at(v); };
+  summit.v = root_from_below(missing_at, v_least, -room_low, high, -room_high,
+                             {0.1 * kDistanceRounding, 1e-14, 100, 3});
+  return room_at(summit.v) >= 0.0 ? std::optional(summit) : std::nullopt;
 }
 
 std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& down, double s0,

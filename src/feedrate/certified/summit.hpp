@@ -1,33 +1,38 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "feedrate/certified/ascent.hpp"
 
 namespace twin::feedrate {
 
-/// The fastest motion between two knots that rises first and falls then: the ascent from one, the
-/// ascent backward from the other, and what joins them.
+/// The fastest motion between two anchors that first rises and then falls: the ascent from the one,
+/// the ascent backward from the other, and what joins them.
 ///
-///             ________  v      Both ascents are left by -J at the same feedrate v, the highest for
-///            /        \.       which they leave room to each other; between them the feedrate is
-///       ____/          \.      held. p never falls along an ascent, so the distance to v grows
-///   a  /                \___   with v, and v is the root of one equation.
+///             ________  v
+///            /        \.
+///       ____/          \.
+///   a  /                \___
 ///                           b
+///
+/// Both ascents are left by -J at the same feedrate v, and between them the feedrate is held. The
+/// distance that an ascent needs to v grows with v, because p never falls along an ascent. So the
+/// highest v for which both have room is the root of one equation of one unknown.
 struct Summit {
   double v = 0.0;       ///< highest feedrate [mm/s]
   Ascent::Exit up{};    ///< from the ascent
   Ascent::Exit down{};  ///< from the backward ascent
-  double length = 0.0;  ///< from knot to knot [mm]
+  double length = 0.0;  ///< from anchor to anchor [mm]
 };
 
-/// Joins two ascents that are `length` apart; extends them as far as is needed.
+/// Joins two ascents whose anchors are `length` apart; extends them as far as is needed.
 ///
-/// @param v_least  the higher of the two knots' feedrates [mm/s]
+/// @param v_least  the higher of the two anchors' feedrates [mm/s]
 /// @param cap      highest feedrate, >= v_least [mm/s]
-/// @returns false where not even v_least leaves room
-bool join(Ascent& up, Ascent& down, double length, double v_least, double cap, Summit& summit);
+/// @returns nothing where not even v_least leaves room
+std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_least, double cap);
 
 /// Appends the phases of a summit that begins at s0. The jerk is stretched by rounding alone.
 /// @returns index of the first phase of the descent

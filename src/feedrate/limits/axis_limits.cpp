@@ -6,9 +6,12 @@
 namespace twin::feedrate {
 namespace {
 
-constexpr double kNormalShare = 0.75;  // of an axis's acceleration that the feedrate may use
-constexpr double kTwistShare = 0.5;    // of its jerk
-constexpr double kTiny = 1e-12;        // derivative that is none
+/// Shares of an axis's acceleration and jerk that the feedrate may use in bends. More makes bends
+/// faster and the ramps beside them slower, for the tangential motion gets what is left.
+constexpr double kNormalShare = 0.75;
+constexpr double kTwistShare = 0.5;
+
+constexpr double kTiny = 1e-12;  // derivative that is none, so that nothing is divided by it
 
 }  // namespace
 

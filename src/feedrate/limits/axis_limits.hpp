@@ -2,11 +2,11 @@
 
 #include "core/limits.hpp"
 #include "core/vec.hpp"
-#include "feedrate/limits/limit_zone.hpp"
+#include "feedrate/limits/zones.hpp"
 
 namespace twin::feedrate {
 
-/// Bounds of the derivatives of a stretch of the path by arc length, axis by axis, each |.|.
+/// Upper bounds of the absolute derivatives of a stretch of the path by arc length, axis by axis.
 struct PathBounds {
   Vec3 tangent = Vec3::Zero();    ///< |dC/ds| [-]
   Vec3 curvature = Vec3::Zero();  ///< |d2C/ds2| [1/mm]
@@ -22,9 +22,10 @@ bool has_axis_limits(const Limits& limits) noexcept;
 ///   velocity      t v
 ///   acceleration  t a + k v^2
 ///   jerk          t j + 3 k v a + k' v^3
-/// where t, k, k' are its parts of the path's derivatives. The feedrate may use up 3/4 of the
-/// axis's acceleration and 1/2 of its jerk; a then gets the rest of the acceleration and half the
-/// rest of the jerk, and j what is left: on a straight line all of it.
+/// where t, k, k' are its parts of the path's derivatives. The limits of the axis are shared out in
+/// this order: the feedrate may use up 3/4 of its acceleration and 1/2 of its jerk, a gets the rest
+/// of the acceleration and half the rest of the jerk, and j gets the jerk that is left. On a
+/// straight line j gets all of it.
 void keep_axis_limits(const PathBounds& path, const Limits& limits, LimitZone& zone) noexcept;
 
 }  // namespace twin::feedrate

@@ -1,58 +1,66 @@
 #include "feedrate/paper/hump.hpp"
-#include "feedrate/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/root.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
 
 /// Peak v of a hump of length d without hold: ramp_distance(va, v) + ramp_distance(v, vb) = d.
 ///
-/// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap;
-/// regula falsi with bisection where it stalls (Illinois rule). Where it jumps over d, at the
-/// larger end feedrate, that is the result.
+/// The left side grows with v, so the root is bracketed by the larger end feedrate and the cap.
+/// Where it jumps over d, at the larger end feedrate, that is the result.
 double peak_without_hold(double va, double vb, double d, double cap,
                          const RampLimits& limits) noexcept {
   const auto excess = [&](double v) {
     return ramp_distance(va, v, limits) + ramp_distance(v, vb, limits) - d;
   };
-  double low = std::max(va, vb);
-  double high = cap;
-  double f_low = excess(low);
-  double f_high = excess(high);
+  const double low = std::max(va, vb);
+  const double f_low = excess(low);
   if (f_low >= 0.0) {
     return low;
   }
-  for (int i = 0; i < 80 && high - low > 1e-13 * high; ++i) {
-    double v = (low * f_high - high * f_low) / (f_high - f_low);
-    if (i % 4 == 3 || !(v > low && v < high)) {
-      v = 0.5 * (low + high);
-    }
-    const double f = excess(v);
-    if (f > 0.0) {
-      high = v;
-      f_high = f;
-      f_low *= i % 4 == 3 ? 1.0 : 0.5;
-    } else {
-      low = v;
-      f_low = f;
-      f_high *= i % 4 == 3 ? 1.0 : 0.5;
-      if (f > -1e-12 * d) {
-        break;
-      }
-    }
+  return root_from_below(excess, low, f_low, cap, excess(cap), {1e-12 * d, 1e-13, 80, 4});
+}
+
+/// Appends one ramp that covers `distance` from s: the shape of ramp_shape, stretched by rounding
+/// so that it fits.
+void append_ramp(double s, double v1, double v2, double distance, const RampLimits& limits,
+                 std::vector<Phase>& phases) {
+  if (!(distance > 0.0) || v1 == v2) {
+    return;
   }
-  return low;
+  const double sign = v2 > v1 ? 1.0 : -1.0;
+  const double delta = std::abs(v2 - v1);
+  const double nominal = ramp_time(delta, limits);
+  const double stretch = 2.0 * distance / ((v1 + v2) * nominal);
+  const double total = nominal * stretch;
+  const double turn = ramp_shape(delta, limits).rise * stretch;
+  const double hold = std::max(total - 2.0 * turn, 0.0);
+  const double a = sign * delta / (turn + hold);
+  Phase phase{turn, s, v1, 0.0, a / turn};
+  phases.push_back(phase);
+  if (hold > 0.0) {
+    phase = remainder_after(phase, turn);
+    phase = {hold, phase.s, phase.v, a, 0.0};
+    phases.push_back(phase);
+    phase = remainder_after(phase, hold);
+  } else {
+    phase = remainder_after(phase, turn);
+  }
+  phases.push_back({turn, phase.s, phase.v, a, -a / turn});
 }
 
 }  // namespace
 
-bool is_reachable(const Knot& a, const Knot& b, const RampLimits& limits) noexcept {
+bool is_reachable(const Anchor& a, const Anchor& b, const RampLimits& limits) noexcept {
   return ramp_distance(a.v, b.v, limits) <= b.s - a.s + kDistanceRounding;
 }
 
-Hump make_hump(const Knot& a, const Knot& b, double cap, const RampLimits& limits) noexcept {
+Hump make_hump(const Anchor& a, const Anchor& b, double cap, const RampLimits& limits) noexcept {
   Hump hump{a, b, std::max({cap, a.v, b.v}), 0.0, 0.0};
   const double d = b.s - a.s;
   hump.up = ramp_distance(a.v, hump.peak, limits);
@@ -85,6 +93,15 @@ Interval faster_than(const Hump& hump, double v, const RampLimits& limits) noexc
     interval.end -= ramp_distance_until(hump.b.v, hump.peak, v, limits);
   }
   return interval;
+}
+
+void append_phases(const Hump& hump, const RampLimits& limits, std::vector<Phase>& phases) {
+  append_ramp(hump.a.s, hump.a.v, hump.peak, hump.up, limits, phases);
+  const double hold = hump.b.s - hump.a.s - hump.up - hump.down;
+  if (hold > 0.0 && hump.peak > 0.0) {
+    phases.push_back({hold / hump.peak, hump.a.s + hump.up, hump.peak, 0.0, 0.0});
+  }
+  append_ramp(hump.b.s - hump.down, hump.peak, hump.b.v, hump.down, limits, phases);
 }
 
 }  // namespace twin::feedrate

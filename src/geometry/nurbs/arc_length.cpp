@@ -3,21 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/nurbs/cross.hpp"
-#include "geometry/nurbs/gauss_legendre.hpp"
+#include "core/root.hpp"
+#include "geometry/gauss_legendre.hpp"
 
 namespace twin::geometry {
 namespace {
 
 constexpr double kLengthTolerance = 1e-10;  // of one interval [mm]
 constexpr double kPlaceTolerance = 1e-10;   // of u_at [mm]
-constexpr int kMaxDepth = 40;               // halvings of one span
 constexpr double kRounding = 1e-13;         // of the coordinates, seen in a length
-constexpr int kHalvings = 32;               // allowed per span, on average
-constexpr int kMoreHalvings = 2000;         // and beyond that
-constexpr int kMaxIterations = 60;
-constexpr double kRadius = 8.0;  // R of Eq. (1)
+constexpr int kMaxDepth = 40;               // halvings of one span
 
+/// Halvings that a curve may need: so many per span on average, and so many more. They bound time
+/// and memory for a curve with a cusp, at which no halving is enough.
+constexpr int kHalvings = 32;
+constexpr int kMoreHalvings = 2000;
+
+/// R of Eq. (1). A larger R makes the quadrature more exact and needs shorter intervals: at R = 4
+/// its error would be 3e-9 of an interval, at R = 16 below the rounding.
+constexpr double kRadius = 8.0;
+
+using FivePoints = gauss::Rule<5>;
 using Quartic = std::array<double, 5>;
 
 double value(const Quartic& q, double x) noexcept {
@@ -42,7 +48,7 @@ struct Tangent {
   }
 };
 
-/// Whether one application of the quadrature to sqrt(q) is good enough, Eq. (1).
+/// Whether one application of the quadrature to sqrt(q) is good enough, Eqs. (1) and (2).
 bool is_smooth(const Quartic& q, double half) noexcept {
   double sum = 0.0;
   for (std::size_t k = 4; k >= 1; --k) {
@@ -80,13 +86,13 @@ struct ArcLength::Builder {
 
   /// Adds an interval whose speeds at the nodes are known; returns arc lengths at its quarters.
   std::array<double, 4> append(double begin, double half, const Quartic& q,
-                               const gauss::Values& speeds) {
+                               const gauss::Values<5>& speeds) {
     const double s = table.length_;
     table.intervals_.push_back({begin, half, s, q});
-    table.length_ += half * gauss::weighted_sum(gauss::kWeights, speeds);
+    table.length_ += half * gauss::weighted_sum(FivePoints::kWeights, speeds);
     std::array<double, 4> quarters = {s, s, s, s};
     for (std::size_t k = 0; samples != nullptr && k < 3; ++k) {
-      quarters[k + 1] += half * gauss::weighted_sum(gauss::kQuarterWeights[k], speeds);
+      quarters[k + 1] += half * gauss::weighted_sum(FivePoints::kQuarterWeights[k], speeds);
     }
     return quarters;
   }
@@ -99,9 +105,9 @@ struct ArcLength::Builder {
       add_cubic(cubic, begin + half, 0.5 * half, depth + 1);
       return;
     }
-    gauss::Values speeds;
+    gauss::Values<5> speeds;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
-      speeds[i] = root(value(q, gauss::kNodes[i]));
+      speeds[i] = root(value(q, FivePoints::kNodes[i]));
     }
     const std::array<double, 4> s = append(begin, half, q, speeds);
     if (samples != nullptr) {
@@ -109,21 +115,22 @@ struct ArcLength::Builder {
     }
   }
 
-  gauss::Values speeds_on(int span, double begin, double half) const {
-    gauss::Values speeds;
+  gauss::Values<5> speeds_on(int span, double begin, double half) const {
+    gauss::Values<5> speeds;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
-      speeds[i] = curve.derivatives(begin + half * (1.0 + gauss::kNodes[i]), span).first.norm();
+      speeds[i] =
+          curve.derivatives(begin + half * (1.0 + FivePoints::kNodes[i]), span).first.norm();
     }
     return speeds;
   }
 
-  void add_any(int span, double begin, double half, const gauss::Values& speeds, int depth) {
+  void add_any(int span, double begin, double half, const gauss::Values<5>& speeds, int depth) {
     const double quarter = 0.5 * half;
-    const gauss::Values left = speeds_on(span, begin, quarter);
-    const gauss::Values right = speeds_on(span, begin + half, quarter);
-    const double whole = half * gauss::weighted_sum(gauss::kWeights, speeds);
-    const double halves = quarter * (gauss::weighted_sum(gauss::kWeights, left) +
-                                     gauss::weighted_sum(gauss::kWeights, right));
+    const gauss::Values<5> left = speeds_on(span, begin, quarter);
+    const gauss::Values<5> right = speeds_on(span, begin + half, quarter);
+    const double whole = half * gauss::weighted_sum(FivePoints::kWeights, speeds);
+    const double halves = quarter * (gauss::weighted_sum(FivePoints::kWeights, left) +
+                                     gauss::weighted_sum(FivePoints::kWeights, right));
     if (std::abs(whole - halves) > tolerance && depth < kMaxDepth && halvings > 0) {
       --halvings;
       add_any(span, begin, quarter, left, depth + 1);
@@ -177,8 +184,9 @@ double ArcLength::speed(const Curve& curve, const Interval& interval, double x) 
 double ArcLength::partial(const Curve& curve, const Interval& interval, double x) const noexcept {
   const double scale = 0.5 * (1.0 + x);
   double sum = 0.0;
-  for (std::size_t i = 0; i < gauss::kPoints; ++i) {
-    sum += gauss::kWeights[i] * speed(curve, interval, scale * (1.0 + gauss::kNodes[i]) - 1.0);
+  for (std::size_t i = 0; i < 5; ++i) {
+    sum += FivePoints::kWeights[i] *
+           speed(curve, interval, scale * (1.0 + FivePoints::kNodes[i]) - 1.0);
   }
   return scale * interval.half * sum;
 }
@@ -207,27 +215,18 @@ double ArcLength::u_at(const Curve& curve, double s, double u_guess) const noexc
                                       [](double at, const Interval& i) { return at < i.s; });
   const Interval& interval = *(above - 1);
   const double interval_length = (above == intervals_.end() ? length_ : above->s) - interval.s;
-  double low = -1.0;
-  double high = 1.0;
   double x = (u_guess - interval.begin) / interval.half - 1.0;
-  if (!(x >= low && x <= high)) {
+  if (!(x >= -1.0 && x <= 1.0)) {
     x = 2.0 * (s - interval.s) / interval_length - 1.0;
   }
-  for (int i = 0; i < kMaxIterations; ++i) {
-    const double error = interval.s + partial(curve, interval, x) - s;
-    if (std::abs(error) <= 0.01 * kPlaceTolerance) {
-      break;
-    }
-    (error > 0.0 ? high : low) = x;
-    const double step = error / (speed(curve, interval, x) * interval.half);
-    const bool inside = x - step > low && x - step < high;  // false for NaN
-    x = inside ? x - step : 0.5 * (low + high);
-    // Newton leaves |f''| / (2 |f'|) step^2, and the speed varies by less than itself over an
-    // interval.
-    if (inside && step * step * interval_length < 0.1 * kPlaceTolerance) {
-      break;
-    }
-  }
+  const auto error_at = [&](double at) {
+    return ValueAndSlope{interval.s + partial(curve, interval, at) - s,
+                         speed(curve, interval, at) * interval.half};
+  };
+  // A Newton step leaves |f''| / (2 |f'|) step^2, and the speed varies by less than itself over an
+  // interval.
+  const double last_step = std::sqrt(0.1 * kPlaceTolerance / interval_length);
+  x = bracketed_newton(error_at, -1.0, 1.0, x, {0.01 * kPlaceTolerance, last_step}).x;
   return interval.begin + interval.half * (1.0 + x);
 }
 

@@ -17,29 +17,32 @@ struct CurvatureSample {
 
 /// Arc length s(u) = integral of |C'| from u_min to u, and its inverse u(s), of one curve.
 ///
-/// The domain is divided at the knots, and further until five-point Gauss-Legendre quadrature of
-/// the speed |C'| is good to 1e-9 mm on each interval. A table holds s at the beginning of each.
+/// The domain is divided at the knots, and further until quadrature of the speed |C'| by the
+/// five-point Gauss-Legendre rule is good to 1e-9 mm on each interval. A table holds s at the
+/// beginning of each interval.
 ///
 /// On a cubic that is not rational, |C'|^2 is a polynomial q of degree 4 in x = -1..1 across the
-/// interval; it is stored, and evaluating the speed costs a Horner scheme and a root. There the
-/// division is certain: where sum_{k>=1} |q_k| R^k <= q_0 / 2 with R = 8, sqrt(q) is analytic in
-/// the disc |x| <= R and at most sqrt(3/2 q_0) there; the disc holds the Bernstein ellipse of r = R
-/// + sqrt(R^2 - 1), and n = 5 points err by no more than
-///   64/15 sqrt(3/2 q_0) r^(-2n) / (1 - r^-2),                                                  (1)
-/// 2.5e-12 of the interval's length. Any other curve is evaluated as it is, and an interval is
-/// accepted where its two halves agree with the whole to 1e-10 mm or 1e-13 of the coordinates; the
+/// interval. The table holds q, so that the speed costs a Horner scheme and a root. Whether the
+/// quadrature is good enough is then decided with certainty: where
+///   sum_{k>=1} |q_k| R^k <= q_0 / 2,   R = 8,                                                  (1)
+/// sqrt(q) is analytic in the disc |x| <= R, and at most sqrt(3/2 q_0) there. The disc holds the
+/// Bernstein ellipse of parameter r = R + sqrt(R^2 - 1), so the error of n = 5 points is at most
+///   64/15 sqrt(3/2 q_0) r^(-2n) / (1 - r^-2),                                                  (2)
+/// which is 2.5e-12 of the length of the interval.
+///
+/// For any other curve the speed is evaluated from the curve itself. An interval is accepted where
+/// the sum of its two halves agrees with the whole to 1e-10 mm or 1e-13 of the coordinates. The
 /// number of divisions is bounded.
 ///
-/// The object holds nothing of the curve's own; the calls take the curve that it was built for.
+/// The table holds no copy of the curve: each call takes the curve that it was built for.
 class ArcLength {
  public:
   /// Builds the table.
   ///
-  /// @param samples  if given, gets the curvature at four equal steps of u on each interval and at
-  /// the very end, in
-  ///                 ascending order. C'' of a cubic is greatest at a knot, and every knot is a
-  ///                 sample. Their s is good to 1e-5 of the interval's length at worst, at the
-  ///                 knots to that of the table.
+  /// @param samples  if given, receives the curvature at four equal steps of u on each interval and
+  ///                 at the very end, in ascending order. C'' of a cubic is greatest at a knot, and
+  ///                 every knot is a sample. The s of a sample is good to 1e-5 of the length of the
+  ///                 interval, and at a knot as good as that of the table.
   /// @note Allocates only while the table grows beyond what it held before.
   void build(const Curve& curve, std::vector<CurvatureSample>* samples = nullptr);
 
@@ -61,8 +64,8 @@ class ArcLength {
     double begin;  // u
     double half;   // half the width in u
     double s;      // arc length at the beginning [mm]
-    std::array<double, 5>
-        q;  // |C'|^2 = sum q_k x^k; unused where the curve is not a cubic polynomial
+    // |C'|^2 = sum q_k x^k; unused where the curve is not a cubic polynomial
+    std::array<double, 5> q;
   };
   struct Builder;
 

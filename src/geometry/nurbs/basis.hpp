@@ -5,9 +5,9 @@
 /// B-spline basis functions by the recursion of Cox and de Boor.
 namespace twin::geometry {
 
-/// What one pass of the recursion leaves behind at u in span s = [u_s, u_{s+1}): the functions of
+/// The results of one pass of the recursion at u in span s = [u_s, u_{s+1}): the basis functions of
 /// the three highest degrees that are not zero there, and the reciprocals of the knot differences,
-/// which the derivatives need again.
+/// which the derivatives need too.
 template <int P>
 struct Basis {
   std::array<double, P + 1> n;  ///< N_{s-P+j, P}(u), j = 0..P
@@ -21,8 +21,8 @@ struct Basis {
 ///   N_{i,0} = 1 on span s,
 ///   N_{i,d}(u) = (u - u_i) / (u_{i+d} - u_i) N_{i,d-1}(u)
 ///              + (u_{i+d+1} - u) / (u_{i+d+1} - u_{i+1}) N_{i+1,d-1}(u),
-/// column by column, d = 1..P, leaving out all that is zero on the span. No denominator is below
-/// the width of the span, so nothing is divided by zero in a span that is not empty.
+/// column by column, d = 1..P, without the functions that are zero on the span. No denominator is
+/// smaller than the width of the span, so there is no division by zero in a span that is not empty.
 ///
 /// @param knot  address of u_s; knot[-P+1] .. knot[P] are read
 /// @note Real-time safe.

@@ -23,17 +23,17 @@ EndCondition circle_condition(const Vec3& before, const Vec3& at, const Vec3& af
   return {true, tangent.normalized(), Vec3::Zero()};
 }
 
-bool BezierFitter::fit(std::span<const Vec3> points, const EndCondition& begin,
-                       const EndCondition& end, Curve& out) {
+FitResult BezierFitter::fit(std::span<const Vec3> points, const EndCondition& begin,
+                            const EndCondition& end, Curve& out) {
   const std::size_t n = points.size() - 1;
   if (points.size() < 2 || (n < 2 && !begin.clamped && !end.clamped)) {
-    return false;
+    return FitResult::kTooFewPoints;
   }
   parameters_.assign(1, 0.0);
   for (std::size_t i = 1; i <= n; ++i) {
     const double chord = (points[i] - points[i - 1]).norm();
     if (!(chord > 0.0) || !std::isfinite(chord)) {
-      return false;
+      return FitResult::kInvalidPoints;
     }
     parameters_.push_back(parameters_.back() + chord);
   }
@@ -63,10 +63,10 @@ bool BezierFitter::fit(std::span<const Vec3> points, const EndCondition& begin,
   control.push_back(points[n]);
   auto curve = Curve::create(kBezierDegree, std::move(knots), std::move(control));
   if (!curve) {
-    return false;
+    return FitResult::kInvalidPoints;
   }
   out = std::move(*curve);
-  return true;
+  return FitResult::kFitted;
 }
 
 }  // namespace twin::geometry

@@ -9,9 +9,9 @@ namespace twin::geometry {
 /// as an exact rational curve on 0 <= u <= 1 with one quarter to each 1/4 of u.
 ///
 /// A quarter is the rational parabola with control points A, B, C, where B is the meeting point of
-/// the tangents in A and C, and weights 1, cos 45 deg, 1. Degree 3 is the same curve with each
-/// quarter's degree raised by one, in homogeneous coordinates: (A, (A + 2 B) / 3, (2 B + C) / 3,
-/// C).
+/// the tangents in A and C, and weights 1, cos 45 deg, 1. Degree 3 is the same curve with the
+/// degree of each quarter raised by one. In homogeneous coordinates its control points are
+///   A,   (A + 2 B) / 3,   (2 B + C) / 3,   C.
 ///
 /// @param centre  centre [mm]
 /// @param radius  radius > 0 [mm]

@@ -36,15 +36,9 @@ Expected<void> check_points(const std::vector<Vec3>& points) {
 
 Expected<Curve> Curve::create(int degree, std::vector<double> knots,
                               std::vector<Vec3> control_points, std::vector<double> weights) {
-  if (auto ok = check_knot_vector(degree, knots, control_points.size()); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  if (auto ok = check_points(control_points); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  if (auto ok = check_weights(weights, control_points.size()); !ok) {
-    return tl::unexpected(ok.error());
-  }
+  TWIN_CHECK(check_knot_vector(degree, knots, control_points.size()));
+  TWIN_CHECK(check_points(control_points));
+  TWIN_CHECK(check_weights(weights, control_points.size()));
   if (std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights[0]; })) {
     weights.clear();
   }

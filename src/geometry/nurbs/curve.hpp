@@ -9,15 +9,15 @@
 
 namespace twin::geometry {
 
-/// A non-uniform rational B-spline curve of degree p with control points P_i and weights w_i, i =
-/// 0..n [WY09, Eqs. 7, 11]:
-///   C(u) = sum_i R_{i,p}(u) P_i,   R_{i,p} = N_{i,p} w_i / sum_j N_{j,p} w_j,   u_min <= u <=
-///   u_max,
-/// on a non-periodic knot vector U [WY09, Eq. 8]. The domain is whatever the knots span; curves
-/// made by Fitter have chord length as parameter, 0 <= u <= L [mm].
+/// A non-uniform rational B-spline curve of degree p [WY09, Eqs. 7, 11]:
+///   C(u) = sum_i R_{i,p}(u) P_i,   u_min <= u <= u_max,
+///   R_{i,p} = N_{i,p} w_i / sum_j N_{j,p} w_j,
+/// with control points P_i and weights w_i, i = 0..n, on a non-periodic knot vector U
+/// [WY09, Eq. 8]. The domain is the range of the knots. Curves that Fitter makes have chord length
+/// as their parameter, 0 <= u <= L [mm].
 ///
-/// Evaluation takes any double: u is clamped to the domain, NaN to its beginning. At a knot the
-/// derivatives are those of the span that begins there, at u_max those of the last span.
+/// Evaluation accepts any double: u is clamped to the domain, and NaN to its beginning. At a knot
+/// the derivatives are those of the span that begins there, at u_max those of the last span.
 class Curve {
  public:
   /// A curve of no points, to be assigned to; it must not be evaluated.
@@ -62,8 +62,8 @@ class Curve {
   }
 
  private:
-  friend class Fitter;  // fills the arrays of an old curve again without checking what it built
-                        // itself
+  // Fitter fills the arrays of an old curve again, without the checks of create().
+  friend class Fitter;
 
   double clamped(double u) const noexcept;
 

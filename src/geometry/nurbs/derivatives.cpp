@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "geometry/nurbs/basis.hpp"
-#include "geometry/nurbs/cross.hpp"
 
 namespace twin::geometry {
 namespace {

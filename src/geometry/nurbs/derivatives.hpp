@@ -4,6 +4,12 @@
 
 namespace twin::geometry {
 
+/// Cross product a x b; Eigen's own would pull in its geometry module.
+inline Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
 /// A curve at one parameter u, with its derivatives with respect to u.
 struct Derivatives {
   Vec3 position;  ///< C(u) [mm]

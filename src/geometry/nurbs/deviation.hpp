@@ -10,14 +10,14 @@ namespace twin::geometry {
 /// Upper bound of the distance of a fitted curve from the polygon it was fitted to, over its whole
 /// length [mm].
 ///
-/// The piece of the curve between two points is held against the chord between the same two points.
-/// Of four equal steps h of the parameter, the broken line through C(u_k) differs from C by at most
-/// h^2/8 max|C''|, and C'' of a cubic is linear on each span, so its maximum is at the knots and at
-/// the ends of the piece. Across the chord that gives
-///   distance <= max_k |n_k| + h^2/8 max|C''_n|,
-/// n the part normal to the chord. It holds for the chord itself, not only for its line, where the
-/// curve cannot run out past its ends; where that is not sure, distance from the chord and all of
-/// C'' take the place of the normal parts.
+/// The piece of the curve between two points is compared with the chord between the same two
+/// points. It is divided into four equal steps h of the parameter. The broken line through the five
+/// places C(u_k) differs from C by at most h^2/8 max|C''|. C'' of a cubic is linear on each span,
+/// so its maximum is at a knot or at an end of the piece. With n the part normal to the chord,
+///   distance <= max_k |n_k| + h^2/8 max|C''_n|.
+/// This bounds the distance from the straight line through the chord, and from the chord itself
+/// where the curve certainly does not pass beyond its ends. Elsewhere the distance from the chord
+/// and the whole of C'' take the place of the normal parts.
 ///
 /// The bound exceeds the deviation itself by about 6 % on a smooth run.
 ///

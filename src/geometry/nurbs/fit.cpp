@@ -87,15 +87,15 @@ void Fitter::set_rows(std::span<const Vec3> points, std::size_t first_unknown, c
   }
 }
 
-bool Fitter::fit(std::span<const Vec3> points, const EndCondition& begin, const EndCondition& end,
-                 Curve& out) {
+FitResult Fitter::fit(std::span<const Vec3> points, const EndCondition& begin,
+                      const EndCondition& end, Curve& out) {
   const std::size_t known_first = begin.clamped ? 3 : 1;
   const std::size_t known_last = end.clamped ? 3 : 1;
   if (points.size() < 2 || points.size() + known_first + known_last < 2 + kDegree + 1) {
-    return false;
+    return FitResult::kTooFewPoints;
   }
   if (!set_parameters(points)) {
-    return false;
+    return FitResult::kInvalidPoints;
   }
   const std::size_t inner = points.size() - 2;
   conditions_.assign(known_first, 0.0);
@@ -122,7 +122,7 @@ bool Fitter::fit(std::span<const Vec3> points, const EndCondition& begin, const 
   const std::span<Vec3> solution = p.subspan(known_first, inner);
   set_rows(points, known_first, out, solution);
   solve_pentadiagonal(rows_, solution);
-  return true;
+  return FitResult::kFitted;
 }
 
 EndCondition Fitter::condition_at(std::span<const Vec3> window, std::size_t index) {
@@ -135,7 +135,7 @@ EndCondition Fitter::condition_at(std::span<const Vec3> window, std::size_t inde
   if (window.size() == 3) {
     return parabola_condition(window, index);
   }
-  if (!fit(window, {}, {}, window_curve_)) {
+  if (fit(window, {}, {}, window_curve_) != FitResult::kFitted) {
     return {};
   }
   const Derivatives at = window_curve_.derivatives(parameters_[index]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,13 @@ struct EndCondition {
   Vec3 second = Vec3::Zero();  ///< d2C/dl2 [1/mm]
 };
 
+/// Whether points have a curve through them.
+enum class FitResult : std::uint8_t {
+  kFitted,
+  kTooFewPoints,   ///< for the degree and the end conditions
+  kInvalidPoints,  ///< successive points coincide, or one is not finite
+};
+
 /// Interpolates points with cubic B-spline curves.
 ///
 /// Through points C_0..C_n goes the curve of degree 3 with chord length as parameter [WY09, Eq. 13,
@@ -31,29 +39,29 @@ struct EndCondition {
 ///     control      P_0 (P_1  P_2)    ...              (P_{m-2} P_{m-1}) P_m
 ///     found        from the end      by Eq. 12        from the end
 ///
-/// At l_i no more than the basis functions of the five neighbouring columns differ from zero, so
-/// the collocation matrix of [WY09, Eq. 12] has five diagonals; it is totally positive
-/// (solve_pentadiagonal).
+/// At l_i only the basis functions of five neighbouring columns differ from zero, so the
+/// collocation matrix of [WY09, Eq. 12] has five diagonals. It is totally positive, and so needs no
+/// pivoting (solve_pentadiagonal).
 ///
-/// A fitter keeps its work arrays: it allocates nothing once it has seen its largest run of points,
-/// except where the curve it fills was moved away.
+/// A fitter keeps its work arrays. Once it has fitted its largest run of points it allocates
+/// nothing more, unless the curve that it fills is an empty one.
 class Fitter {
  public:
   /// Fits the curve through `points` (n+1 of them [mm], successive ones distinct);
   /// n >= 3, or n >= 1 with a clamped end.
   ///
-  /// @param out  gets the curve; untouched on failure
-  /// @returns false when the points are too few, coincide or are not finite
-  bool fit(std::span<const Vec3> points, const EndCondition& begin, const EndCondition& end,
-           Curve& out);
+  /// @param out  gets the curve, in the memory that it has; untouched if there is none
+  FitResult fit(std::span<const Vec3> points, const EndCondition& begin, const EndCondition& end,
+                Curve& out);
 
   /// Chord-length parameters l_0..l_n of the last fit [mm].
   const std::vector<double>& parameters() const noexcept { return parameters_; }
 
-  /// What the curve through a window of points does at one of them; see joint_condition.
+  /// Derivatives of the curve through a window of points at one of them; see joint_condition.
   EndCondition condition_at(std::span<const Vec3> window, std::size_t index);
 
  private:
+  /// @returns false where successive points coincide or one is not finite
   bool set_parameters(std::span<const Vec3> points);
   void set_rows(std::span<const Vec3> points, std::size_t first_unknown, const Curve& curve,
                 std::span<Vec3> solution);
@@ -68,8 +76,9 @@ class Fitter {
 /// the curve that interpolates the window with free ends. Both curves that meet there get the
 /// condition, one as its end, the other as its beginning.
 ///
-/// Four points on either side are enough: what a point does to the derivatives fades by a factor of
-/// about 4 with each chord. Of three points the parabola is taken, of two the straight line.
+/// Four points on either side are enough, since the effect of a point on the derivatives falls by a
+/// factor of about 4 with each chord. A window of three points gives the derivatives of the
+/// parabola through them, one of two points those of the straight line.
 ///
 /// @param window  points of the run around the joint, successive ones distinct [mm]
 /// @param index   which of them is the joint

@@ -6,13 +6,12 @@
 
 #include "core/error.hpp"
 
-/// The non-periodic knot vector of a curve with n+1 control points and degree p,
-///   U = {u_0, ..., u_{n+p+1}},   u_0 = ... = u_p < ... < u_{n+1} = ... = u_{n+p+1}     [WY09, Eq.
-///   8].
+/// The non-periodic knot vector of a curve with n+1 control points and degree p [WY09, Eq. 8],
+///   U = {u_0, ..., u_{n+p+1}},   u_0 = ... = u_p < ... < u_{n+1} = ... = u_{n+p+1}.
 ///
-/// Span s is the half-open interval [u_s, u_{s+1}); the spans of the domain are p..n, some of them
-/// empty where a knot is repeated. The last one is closed, so that the end of the domain belongs to
-/// it.
+/// Span s is the half-open interval [u_s, u_{s+1}). The spans of the domain are p..n; some of them
+/// are empty where a knot is repeated. The last span is closed, so that it holds the end of the
+/// domain.
 namespace twin::geometry {
 
 /// Highest degree p of a curve.

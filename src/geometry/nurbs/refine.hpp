@@ -6,8 +6,8 @@
 
 namespace twin::geometry {
 
-/// A curve, or the part of it between two parameters, on a knot vector that has more knots: knot
-/// insertion.
+/// A curve, or the part of it between two parameters, on a knot vector with more knots (knot
+/// insertion).
 ///
 /// With the blossom F_s of the polynomial piece on span s (its polar form in homogeneous
 /// coordinates, symmetric and affine in each of its p arguments), the control points on the knots v
@@ -17,7 +17,7 @@ namespace twin::geometry {
 /// Source: L. Piegl, W. Tiller, The NURBS Book, 2nd ed., Sections 5.2 and 5.3.
 ///
 /// @param knots  v, clamped and inside the domain; between its ends it has every knot of the curve
-/// at least as often as the curve
+///               at least as often as the curve has it
 Curve refine(const Curve& curve, std::vector<double> knots);
 
 /// How a curve is cut into pieces.
@@ -26,9 +26,9 @@ struct SplitRule {
   int most_spans = 0;        ///< and after so many spans; 0: no limit
 };
 
-/// The pieces of a curve between some of its knots, each a curve of its own on clamped knots. The
-/// pieces together are the curve, exactly but for rounding; neighbours share their common control
-/// point bit for bit, and the outer ones the curve's own ends.
+/// Cuts a curve at some of its knots into pieces, each a curve of its own on clamped knots.
+/// Together the pieces are the curve, up to rounding. Neighbours have the same control point where
+/// they meet, bit for bit, and the first and last piece end in the ends of the curve.
 std::vector<Curve> split(const Curve& curve, const SplitRule& rule);
 
 /// The pieces of a curve over each of its spans: rational Bezier curves.

@@ -19,12 +19,13 @@ struct Deviation {
 /// and the distance from a convex set, the chord, is a convex function: its largest value on the
 /// hull is that at one of the four. This bounds every point of C from the chord.
 ///
-/// Back from the polygon: C is continuous over the whole block, so its projection onto the chord's
-/// line covers all between the projections of C(s_i) and C(s_{i+1}), and a point of the chord there
-/// is as near as the piece of C that projects onto it. A point of the chord before the projection
-/// of C(s_i) is no farther from C(s_i) than the larger of |V_i - C(s_i)| and the distance of C(s_i)
-/// from its projection. So with the distances |V_i - C(s_i)| of all vertices in the span the bound
-/// holds both ways.
+/// The distance of the polygon from C is bounded as follows. C is continuous over the block, so its
+/// projection onto the line of the chord covers everything between the projections of C(s_i) and
+/// C(s_{i+1}). A point of the chord between those two is as near to C as the point of C that
+/// projects onto it. A point of the chord before the projection of C(s_i) is no farther from C(s_i)
+/// than the larger of |V_i - C(s_i)| and the distance of C(s_i) from its projection; the other end
+/// is alike. So the distances |V_i - C(s_i)| of all vertices in the span are part of the bound, and
+/// it holds both ways.
 ///
 /// @param block    the block that holds cubic.begin
 /// @param highest  the last block there is

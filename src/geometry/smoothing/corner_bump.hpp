@@ -7,16 +7,18 @@
 
 namespace twin::geometry {
 
-/// What is added to a path around a corner to make its first two derivatives continuous there.
+/// A function that is added to a path around a corner and makes its first two derivatives
+/// continuous there.
 ///
 /// Let a path C(s) have the jumps D = C'(0+) - C'(0-) and K = C''(0+) - C''(0-) at a corner s = 0.
-/// With y = |s| / h,
-///   g(s) = (h/6) (1 - y)^3,        whose g' jumps by -1 at 0 and g'' does not,                 (1)
+/// With y = |s| / h let
+///   g(s) = (h/6) (1 - y)^3,                                                                    (1)
 ///   k(s) = sign(s) h^2 (y/12 - y^2/4 + 7/36 y^3)       y <= 1/2,
-///          sign(s) (h^2/36) (1 - y)^3                  y > 1/2,                                (2)
-///                                  whose k'' jumps by -1 at 0 and k' does not,
-/// the sum C + D g + K k is C2; g, k and their first two derivatives vanish at |s| = h and beyond.
-/// Both are cubic between -h, -h/2, 0, h/2 and h. They move a point by no more than
+///          sign(s) (h^2/36) (1 - y)^3                  y > 1/2.                                (2)
+/// At s = 0 the first derivative of g jumps by -1 and its second does not; the second derivative of
+/// k jumps by -1 and its first does not. So the sum C + D g + K k is C2. At |s| = h and beyond, g,
+/// k and their first two derivatives vanish. Both are cubic between -h, -h/2, 0, h/2 and h. They
+/// move a point by no more than
 ///   |D| h / 6 + |K| h^2 / 120.                                                                 (3)
 struct CornerBump {
   Vec3 turn = Vec3::Zero();  ///< D [-]
@@ -29,8 +31,8 @@ struct CornerBump {
   double width(double height) const noexcept;
 };
 
-/// Adds a bump of width h about s = centre to the pieces of a path, which get its places as further
-/// ends. The pieces follow each other and cover centre - h to centre + h.
+/// Adds a bump of half width h about s = centre to the pieces of a path. Pieces are divided where
+/// the cubics of the bump end. The pieces follow each other and cover centre - h to centre + h.
 void add_bump(const CornerBump& bump, double centre, double width,
               std::vector<geometry::SpanCubic>& pieces);
 

@@ -22,14 +22,14 @@ struct Stretch {
 ///
 /// With x = -1..1 across the interval and Legendre's polynomials L_k,
 ///   p(x) = sum_k c_k L_k(x),   c_k = (2 k + 1) / 2 integral of A(s(x)) L_k(x) dx,   k = 0..3.  (1)
-/// On the part of a block around x = a, of half width d, A = m + d' y + b (1/3 - y^2), y = -1..1,
-/// and
+/// The integrals are sums over the blocks. The part of a block that lies around x = a with half
+/// width d has A = m + d' y + b (1/3 - y^2), y = -1..1, and
 ///   1/(2d) integral of A x^k dx = m                                                       | k = 0
 ///                                 a m + (d/3) d'                                          | k = 1
 ///                                 (a^2 + d^2/3) m + (2 a d/3) d' - (4/45) d^2 b           | k = 2
 ///                                 (a^3 + a d^2) m + (a^2 d + d^3/5) d' - (4/15) a d^2 b   | k = 3,
-/// so (1) is exact and costs a fixed amount a block. Beyond its ends the polygon goes on as its own
-/// point reflection about the end point, A(s_end + x) = 2 A_end - A(s_end - x).
+/// so (1) is exact, and a block costs a fixed amount. Beyond an end of the polygon its point
+/// reflection about that end takes its place, A(s_end + x) = 2 A_end - A(s_end - x).
 ///
 /// @note Real-time safe.
 class LocalCubic {
@@ -69,10 +69,10 @@ class LocalCubic {
   int blocks_ = 0;
 };
 
-/// The blossom of LocalCubic as an integral: f gives the point
+/// The blossom of LocalCubic, Eqs. 1 and 3 there, as one integral. For a function f it is
 ///   integral of f(s) K(s) ds / half width,
-///   K = 1/2 + (x_m / 2) x - (5/2) L_2(x) - (21/2) x_m L_3(x),   x_m that of the middle place,
-/// by its Eqs. 1 and 3.
+///   K = 1/2 + (x_m / 2) x - (5/2) L_2(x) - (21/2) x_m L_3(x),
+/// with x_m the x of the middle place.
 class BlossomKernel {
  public:
   BlossomKernel(double begin, double middle, double end) noexcept

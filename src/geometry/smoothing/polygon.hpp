@@ -10,13 +10,15 @@ namespace twin::geometry {
 ///
 /// Block i goes straight from vertex i to vertex i + 1,
 ///   V(s) = V_i + (s - s_i) e_i,   s_i <= s <= s_{i+1},   s_{i+1} = s_i + L_i.
-/// Programs cut rounds into chords. The curvature at a vertex and the sagitta of a block,
+/// Programs cut rounds into chords. The round is estimated from the curvature at the vertices and
+/// the sagitta of the blocks,
 ///   k_i = 2 (e_i - e_{i-1}) / (L_{i-1} + L_i),   b_i = -(L_i^2 / 8) minmod(k_i, k_{i+1}),
-/// the shorter of the two where they point to one side, else 0, give the round back:
+/// where minmod is the shorter of two vectors that point to one side, and zero for any others:
 ///   A(s) = A_i + f (A_{i+1} - A_i) + 4 f (1 - f) b_i,   f = (s - s_i) / L_i,
-///   A_i = V_i + (L_{i-1} L_i / 16) k_i,
-/// which lies half a sagitta inside the vertices and half a sagitta outside the chords. At the ends
-/// of a run k = 0. Block i is settled once block i + 1 is there, or none follows.
+///   A_i = V_i + (L_{i-1} L_i / 16) k_i.
+/// A(s) lies half a sagitta inside the vertices and half a sagitta outside the chords. At the ends
+/// of a run k = 0. The numbers of block i do not change any more once block i + 1 is there, or once
+/// it is known that none follows.
 class Polygon {
  public:
   struct Vertex {

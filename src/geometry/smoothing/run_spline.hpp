@@ -1,131 +1,92 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 
 #include "core/vec.hpp"
-#include "geometry/nurbs/span_cubic.hpp"
-#include "geometry/smoothing/chord_deviation.hpp"
-#include "geometry/smoothing/local_cubic.hpp"
+#include "geometry/smoothing/knot_marcher.hpp"
 #include "geometry/smoothing/polygon.hpp"
-#include "geometry/smoothing/sliding_vector.hpp"
+#include "geometry/smoothing/quasi_interpolant.hpp"
+#include "geometry/smoothing/run_sink.hpp"
+#include "geometry/smoothing/span_checker.hpp"
 
 namespace twin::geometry {
-
-/// Takes the pieces of smoothed runs, one after the other.
-class RunSink {
- public:
-  RunSink() = default;
-  RunSink(const RunSink&) = delete;
-  RunSink& operator=(const RunSink&) = delete;
-  virtual ~RunSink() = default;
-
-  /// The next span of the run's spline.
-  /// @param deviation  bound of its distance from the polygon, both ways [mm]
-  virtual void take_span(const geometry::SpanCubic& span, double deviation) = 0;
-  /// A run of one block, from s = begin to end.
-  virtual void take_block(const Vec3& from, const Vec3& to, double begin, double end) = 0;
-  /// The run is over; what follows, if anything, meets it at a corner.
-  virtual void end_run() = 0;
-};
 
 /// Fits a run of short blocks by one C2 cubic spline over the arc length s of their polygon, with
 /// as few spans as the tolerance allows, from a stream of points.
 ///
-/// The spline is a quasi-interpolant, corrected once. With
-///   Q_j[f] = the blossom at (t_{j+1}, t_{j+2}, t_{j+3}) of the cubic that is nearest to f on
-///            [t_{j+1}, t_{j+3}] (LocalCubic),                                                 (1)
-/// Q[f] = sum_j Q_j[f] N_j reproduces cubics and averages the rounding of the points, but lies off
-/// a curve f by 0.031 H^4 |d4f/ds4| all along. What it makes of itself shows how far:
-///   C(s) = sum_j P_j N_j(s),   P_j = 2 Q_j[V] - Q_j[Q[V]].                                     (2)
-/// P_j depends on the six spans around it: no system of equations, no effect of a change far away.
+///   push ----> Polygon ----> KnotMarcher ----> QuasiInterpolant ----> SpanChecker ----> RunSink
+///              points,       knots t_j,        control points P_j,    deviation within
+///              smooth path   as far apart      curve C(s)             the limit?
+///              A(s)          as A(s) lets them                           |
+///                                  ^------- shorter spans, or a corner --' no
 ///
-/// The knots t_j march along the run. A span has the largest length H of H_max 2^-k, at most twice
-/// the last one (tried where it is likely to do, and at every fourth span), for which the cubic
-/// nearest to the polygon on [t - H, t + 2 H] leaves no more than kShare of the tolerance (root
-/// mean square), and that turns by no more
-/// than kMostTurn over H, for the curvature of a spline is right to a twelfth of the square of
-/// that. Since the window looks ahead and back, spans become short towards a tight place and long
-/// behind it.
+/// A span whose deviation exceeds its limit is marched again with shorter spans, up to kAttempts
+/// times. After that the sharpest vertex of the block that deviates most becomes a corner, which
+/// ends the run; another run begins there.
 ///
-/// At both ends of the run the polygon goes on as its own point reflection, and so do the knots:
-/// there C is the end point itself, and C'' = 0.
-///
-/// Each span has its bound of the deviation (chord_deviation). One that exceeds kLimit of the
-/// tolerance is marched over again with shorter spans, kAttempts times at most; then its sharpest
-/// vertex becomes a corner, which ends the run and begins another.
-///
-/// A span is given away once kHeldSpans after it are settled. The spans it is given away with are
-/// never marched over again, and nothing depends on when points arrive.
+/// A span leaves for the sink once enough spans after it are checked. It never changes afterwards,
+/// and nothing depends on when points arrive.
 class RunSpline {
  public:
-  explicit RunSpline(RunSink& sink) : sink_(sink) {}
+  /// @param sink  receives the spans; it outlives this object
+  explicit RunSpline(RunSink& sink) : sink_(sink), interpolant_(knots_) {}
+  RunSpline(const RunSpline&) = delete;
+  RunSpline& operator=(const RunSpline&) = delete;
 
-  bool is_empty() const noexcept { return !is_open_; }
+  bool is_empty() const noexcept { return state_ == State::kEmpty; }
 
   /// Begins a run.
+  /// @param at         its first point [mm]
+  /// @param s          arc length there [mm]
   /// @param tolerance  bound of the deviation [mm]
   void start(const Vec3& at, double s, double tolerance);
-  /// The next point of the run.
+  /// The next point of the run [mm].
   void push(const Vec3& end);
-  /// The run ends at the last point; everything left comes out.
+  /// The run ends at the last point; everything left goes to the sink.
   void finish();
 
  private:
-  struct Knot {
-    double s;           // t_j
-    std::size_t block;  // that holds it
-  };
-  struct Span {
-    geometry::SpanCubic cubic;
-    double deviation;
+  /// Of the run under way:
+  ///
+  ///   kEmpty --start--> kGrowing --corner found--> kCut --its end is reached--> kGrowing, from the
+  ///      ^                 |                        |                           corner on
+  ///      |              finish                   finish
+  ///      |                 v                        |
+  ///      '----- end ---- kFinished <----------------'
+  ///
+  /// In kFinished a run that ends at a corner is followed by another one, still kFinished.
+  enum class State : std::uint8_t {
+    kEmpty,     ///< there is none
+    kGrowing,   ///< its end is not known
+    kCut,       ///< it ends at a corner, end_vertex_; more points may follow
+    kFinished,  ///< it ends at end_vertex_; no more points follow
   };
 
+  bool is_closed() const noexcept { return state_ == State::kCut || state_ == State::kFinished; }
   std::size_t last_vertex() const noexcept;
-  Stretch stretch() const noexcept;
-  double run_end() const noexcept { return polygon_[end_vertex_].s; }
-  double knot(std::ptrdiff_t j) const noexcept;
-  std::size_t last_knot() const noexcept { return knots_.end_index() - 1; }
-  bool is_marched() const noexcept { return is_closed_ && knots_.back().s >= run_end(); }
-  bool can_settle() const noexcept;
-  double longest_span() const noexcept;
-  double capped_by_blocks(double width) const noexcept;
-  double residual(double width) const noexcept;
-  bool can_march() const noexcept;
-  void march();
+  KnownRun known() const noexcept;
+  bool can_check() const noexcept;
+  void begin_at(std::size_t vertex);
   void advance();
-  void add_knot(double s);
-  void place_points();
-  void correct_points();
-  Vec3 refitted(std::size_t point) const noexcept;
-  geometry::SpanCubic cubic_of(const SlidingVector<Vec3>& points, std::size_t span) const noexcept;
-  void settle();
+  void march();
+  void check_span();
   void march_again(std::size_t span, std::size_t worst_block);
   bool cut(std::size_t block);
-  void truncate(std::size_t knots);
-  void give_away(std::size_t end);
+  void truncate(std::size_t last_knot);
+  void forget_released();
+  void emit_block();
   void end_run();
-  void begin_at(std::size_t vertex);
 
   RunSink& sink_;
-  double tolerance_ = 0.0;
+  State state_ = State::kEmpty;
   Polygon polygon_;
-  SlidingVector<Knot> knots_;                             // t_0, t_1, ...
-  SlidingVector<Vec3> raw_;                               // Q_{j-3} at index j
-  SlidingVector<Vec3> points_;                            // P_{j-3} at index j
-  SlidingVector<Span> spans_;                             // settled, not yet given away
-  std::size_t begin_vertex_ = 0;                          // of the run under way
-  double begin_ = 0.0;                                    // its arc length
-  Vec3 begin_at_ = Vec3::Zero();                          // its place
-  std::size_t end_vertex_ = 0;                            // where it is closed
-  double last_width_ = 0.0;                               // of the latest span; 0: none
-  int spans_to_grow_ = 0;                                 // before a longer one is tried
-  double cap_ = std::numeric_limits<double>::infinity();  // of spans that begin before cap_end_
-  double cap_end_ = 0.0;
-  int attempts_ = 0;
-  bool is_open_ = false;
-  bool is_closed_ = false;    // the end of the run under way is known
-  bool is_finished_ = false;  // no more points follow
+  KnotMarcher knots_;
+  QuasiInterpolant interpolant_;
+  SpanChecker spans_;
+  std::size_t begin_vertex_ = 0;  // of the run under way
+  std::size_t end_vertex_ = 0;    // of the run under way, where it is closed
+  int attempts_ = 0;              // to march the same place again
 };
 
 }  // namespace twin::geometry

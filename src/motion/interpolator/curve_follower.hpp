@@ -1,6 +1,6 @@
 #pragma once
 
-#include "feedrate/profile/phase.hpp"
+#include "feedrate/profile/phases.hpp"
 #include "motion/interpolator/interpolator_settings.hpp"
 #include "path/segment.hpp"
 

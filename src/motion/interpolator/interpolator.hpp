@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "feedrate/planned_segment.hpp"
-#include "feedrate/profile/brake.hpp"
+#include "feedrate/profile/phases.hpp"
 #include "motion/interpolator/curve_follower.hpp"
 #include "motion/interpolator/interpolator_settings.hpp"
 #include "motion/interpolator/set_point.hpp"

@@ -9,9 +9,8 @@ namespace twin::motion {
 
 /// Second-order Taylor step of the parameter over a period T at feedrate V and tangential
 /// acceleration A:
-///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)                [WY09, Eq.
-///   23]
-/// (printed there with |C'|^3 inside the bracket that 1/|C'| stands before: the same).
+///   u' = u + V T / |C'| + (T^2 / 2) (A / |C'| - V^2 (C' . C'') / |C'|^4)      [WY09, Eq. 23].
+/// The paper prints |C'|^3 inside a bracket with 1/|C'| before it, which is the same.
 /// @note Real-time safe.
 double taylor_step(const geometry::Derivatives& at, double u, double feedrate, double acceleration,
                    double period) noexcept;

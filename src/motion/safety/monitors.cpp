@@ -9,7 +9,10 @@ static_assert(Monitor<DriveAlarm> && Monitor<ReadyLost> && Monitor<Overtravel> &
 
 AxisFacts facts_of(const hal::MachineInfo& info, std::size_t axis, double period,
                    double feedrate) noexcept {
-  return {period, info.mm_per_count[axis], info.mm_per_s_per_volt[axis], feedrate};
+  return {.period = period,
+          .mm_per_count = info.mm_per_count[axis],
+          .mm_per_s_per_volt = info.mm_per_s_per_volt[axis],
+          .feedrate = feedrate};
 }
 
 /// Lets every monitor look, so that none misses a period; keeps the first finding.
@@ -58,9 +61,10 @@ std::optional<Trip> Monitors::check(const std::array<AxisView, hal::kServoAxes>&
     if (!finding) {
       continue;
     }
-    const Reaction reaction = reaction_to(finding->kind);
-    if (!trip || (trip->reaction == Reaction::kControlled && reaction == Reaction::kImmediate)) {
-      trip = Trip{finding->kind, i, finding->value, finding->limit, 0.0, 0, reaction};
+    const Trip found{
+        .kind = finding->kind, .axis = i, .value = finding->value, .limit = finding->limit};
+    if (!trip || (!is_immediate(*trip) && is_immediate(found))) {
+      trip = found;
     }
   }
   return trip;

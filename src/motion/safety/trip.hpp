@@ -31,6 +31,9 @@ enum class Reaction : std::uint8_t {
 
 inline constexpr std::size_t kNoAxis = 2;  ///< a trip that is not about one axis
 
+/// What is done about a kind.
+Reaction reaction_to(Kind kind) noexcept;
+
 /// Why a motion was ended by a monitor. Plain data, made in the cycle.
 struct Trip {
   Kind kind = Kind::kTrackingError;
@@ -39,14 +42,15 @@ struct Trip {
   double limit = 0.0;          ///< the same unit; nothing for the kinds that are a switch
   double time = 0.0;           ///< since the first set point [s]
   std::int64_t line = 0;       ///< NC line; 0 before the first set point
-  Reaction reaction = Reaction::kImmediate;
 };
 
-/// What is done about a kind.
-Reaction reaction_to(Kind kind) noexcept;
+/// Whether the machine is switched off at once.
+inline bool is_immediate(const Trip& trip) noexcept {
+  return reaction_to(trip.kind) == Reaction::kImmediate;
+}
 
-/// One line for a person: axis, value with unit, limit, time, NC line, what was done and what to
-/// do. Not real-time safe.
+/// One line that tells a person of a trip: axis, value with unit, limit, time, NC line, what was
+/// done and what to do. Not real-time safe.
 std::string describe(const Trip& trip);
 
 }  // namespace twin::motion

@@ -96,7 +96,7 @@ std::string describe(const Trip& trip) {
                                 ? "before the first set point"
                                 : fmt::format("at t = {:.3f} s, NC line {}", trip.time, trip.line);
   const std::string_view done =
-      trip.reaction == Reaction::kImmediate ? "0 V and servo off at once" : "stopped on the path";
+      is_immediate(trip) ? "0 V and servo off at once" : "stopped on the path";
   return fmt::format("{}{}, {}; {}; {}", axis, measure(trip), place, done, advice(trip.kind));
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/atomic_file.hpp"
 #include "pictures/plot/draw.hpp"
-#include "results/trace/csv_file.hpp"
+#include "pictures/plot/write_table.hpp"
 
 namespace twin::pictures {
 namespace {
@@ -27,29 +27,14 @@ Expected<Album> Album::open(const fs::path& folder) {
 
 Expected<results::Table> Album::copy_data(const fs::path& csv, const std::string& name,
                                           std::span<const std::string_view> columns) const {
-  auto table = results::load_decimated(csv, columns, kMostRows);
-  if (!table) {
-    return table;
-  }
-  if (auto written = write_data(name, columns, *table); !written) {
-    return tl::unexpected(std::move(written.error()));
-  }
+  TWIN_TRY(results::Table table, results::load_decimated(csv, columns, kMostRows));
+  TWIN_CHECK(write_data(name, columns, table));
   return table;
 }
 
 Expected<void> Album::write_data(const std::string& name, std::span<const std::string_view> columns,
                                  const results::Table& table) const {
-  auto file =
-      results::CsvFile::create(folder_ / (name + ".csv"), folder_ / (name + ".csv.tmp"), columns);
-  if (!file) {
-    return tl::unexpected(std::move(file.error()));
-  }
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (auto written = file->write(table.row(i)); !written) {
-      return written;
-    }
-  }
-  return file->commit();
+  return write_table(folder_, name, columns, table);
 }
 
 void Album::add(const std::string& name, const std::string& title, const std::vector<Panel>& panels,
@@ -59,9 +44,7 @@ void Album::add(const std::string& name, const std::string& title, const std::ve
 }
 
 Expected<std::vector<Picture>> Album::draw() {
-  if (auto drawn = pictures::draw(folder_, scripts_); !drawn) {
-    return tl::unexpected(std::move(drawn.error()));
-  }
+  TWIN_CHECK(pictures::draw(folder_, scripts_));
   std::ranges::sort(pictures_, {}, &Picture::name);
   return std::move(pictures_);
 }

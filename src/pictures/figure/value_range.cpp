@@ -38,9 +38,9 @@ std::string y_axis(const ValueRange& values) {
                      step * std::ceil(range.high / step - 1e-9), step);
 }
 
-std::string feedrate_axis(double feedrate, bool has_letters) {
+std::string feedrate_axis(double feedrate, Letters letters) {
   return fmt::format("  set yrange [{:g}:{:g}]\n  set ytics 0,{:g}\n",
-                     has_letters ? -0.2 * feedrate : 0.0, 1.12 * feedrate,
+                     letters == Letters::kBelow ? -0.2 * feedrate : 0.0, 1.12 * feedrate,
                      tic_step({0.0, feedrate}));
 }
 

@@ -21,9 +21,12 @@ double tic_step(const ValueRange& range);
 /// gnuplot commands for the vertical axis: whole steps, few enough numbers to read.
 std::string y_axis(const ValueRange& values);
 
-/// The same for feedrates from 0; below the axis there is room for letters where `has_letters`.
+/// Whether an axis leaves room for letters below the curve.
+enum class Letters { kNone, kBelow };
+
+/// The same for feedrates from 0.
 ///
 /// @param feedrate  programmed [mm/s]
-std::string feedrate_axis(double feedrate, bool has_letters);
+std::string feedrate_axis(double feedrate, Letters letters = Letters::kNone);
 
 }  // namespace twin::pictures

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include <array>
 #include <system_error>
 
 #include "core/atomic_file.hpp"
@@ -52,24 +53,31 @@ Expected<void> Workshop::deliver_one(const std::string& name) const {
   return {};
 }
 
-Expected<void> Workshop::write(std::span<const std::pair<const char*, std::string>> texts,
-                               std::vector<std::string>& names) const {
+Expected<std::vector<std::string>> Workshop::write(std::span<const NamedText> texts) const {
+  std::vector<std::string> names;
   for (const auto& [name, text] : texts) {
-    if (auto written = write_whole_file(folder_ / name, text); !written) {
-      return written;
-    }
+    TWIN_CHECK(write_whole_file(folder_ / name, text));
     names.emplace_back(name);
   }
-  return {};
+  return names;
 }
 
 Expected<void> Workshop::deliver(std::span<const std::string> names) const {
   for (const std::string& name : names) {
-    if (auto delivered = deliver_one(name); !delivered) {
-      return delivered;
-    }
+    TWIN_CHECK(deliver_one(name));
   }
   return {};
+}
+
+Expected<void> Workshop::deliver_study(std::span<const NamedText> texts, Drawing drawing) const {
+  TWIN_TRY(std::vector<std::string> names, write(texts));
+  const std::array<std::string, 1> folder{pictures().filename().string()};
+  if (drawing == Drawing::kDrawn) {
+    names.insert(names.begin(), folder.front());
+  } else {
+    discard_older(folder);
+  }
+  return deliver(names);
 }
 
 void Workshop::discard_older(std::span<const std::string> names) const {

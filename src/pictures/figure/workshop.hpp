@@ -10,6 +10,12 @@
 
 namespace twin::pictures {
 
+/// Text of a file and the file's name.
+using NamedText = std::pair<const char*, std::string>;
+
+/// Whether a study draws its pictures.
+enum class Drawing { kDrawn, kLeftOut };
+
 /// A folder inside the results' folder where everything is made first; gone at the end, whatever
 /// happens.
 class Workshop {
@@ -28,9 +34,17 @@ class Workshop {
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
 
-  /// Writes texts into the workshop, each under its name, and appends the names.
-  Expected<void> write(std::span<const std::pair<const char*, std::string>> texts,
-                       std::vector<std::string>& names) const;
+  /// Folder in the workshop where the pictures of a study are drawn. It is not made here.
+  std::filesystem::path pictures() const { return folder_ / "figures"; }
+
+  /// Moves a study's results to the results' folder: its texts, and its pictures where they were
+  /// drawn. Where they were not, those of an earlier run are taken away. All texts are written
+  /// before the first of these steps.
+  Expected<void> deliver_study(std::span<const NamedText> texts, Drawing drawing) const;
+
+  /// Writes texts into the workshop, each under its name.
+  /// @returns the names
+  Expected<std::vector<std::string>> write(std::span<const NamedText> texts) const;
 
   /// Moves files and folders made in the workshop to the results, in place of older ones.
   Expected<void> deliver(std::span<const std::string> names) const;

@@ -9,7 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
 #include "pictures/plot/draw.hpp"
-#include "results/trace/csv_file.hpp"
+#include "pictures/plot/write_table.hpp"
 #include "results/trace/decimator.hpp"
 
 namespace twin::pictures {
@@ -49,17 +49,7 @@ Expected<void> write_path(const fs::path& folder, std::string_view sense,
   }
   const results::Table table = decimator.finish();
   constexpr std::array<std::string_view, 2> columns{"angle_deg", "radial_error_um"};
-  const std::string name = fmt::format("circular_test_{}.csv", sense);
-  auto file = results::CsvFile::create(folder / name, folder / (name + ".tmp"), columns);
-  if (!file) {
-    return tl::unexpected(file.error());
-  }
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (auto written = file->write(table.row(i)); !written) {
-      return written;
-    }
-  }
-  return file->commit();
+  return write_table(folder, fmt::format("circular_test_{}", sense), columns, table);
 }
 
 /// Rings, spokes and their labels, in divisions; the nominal circle has the radius `base`.
@@ -165,9 +155,7 @@ Expected<std::vector<fs::path>> write_circular_figure(const CircularFigureInput&
     return file_error(folder, "create", error.value());
   }
   for (std::size_t i = 0; i < input.path.size(); ++i) {
-    if (auto written = write_path(folder, kSenses[i], input.path[i], input.radius); !written) {
-      return tl::unexpected(written.error());
-    }
+    TWIN_CHECK(write_path(folder, kSenses[i], input.path[i], input.radius));
   }
   const std::array scripts{circular_script(input, radial_division(largest_error(input)))};
   return draw(folder, scripts);

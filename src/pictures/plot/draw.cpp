@@ -40,9 +40,7 @@ Expected<std::vector<fs::path>> draw(const fs::path& folder, std::span<const Scr
     names.push_back(script.name + ".gp");
     pictures.push_back(folder / (script.name + ".png"));
     pictures.push_back(folder / (script.name + ".svg"));
-    if (auto written = write_whole_file(folder / names.back(), script.text); !written) {
-      return tl::unexpected(std::move(written.error()));
-    }
+    TWIN_CHECK(write_whole_file(folder / names.back(), script.text));
   }
   remove_all(pictures);  // no older picture may pass for one of this run
   auto drawn = run_gnuplot(folder, names).and_then([&] { return check_pictures(pictures); });

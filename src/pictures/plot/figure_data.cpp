@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "pictures/plot/motion_filter.hpp"
 #include "pictures/plot/normal_error.hpp"
-#include "pictures/plot/path_motion.hpp"
+#include "pictures/plot/write_table.hpp"
 #include "results/trace/columns.hpp"
-#include "results/trace/csv_file.hpp"
 #include "results/trace/csv_reader.hpp"
 #include "results/trace/decimator.hpp"
 #include "results/trace/pen.hpp"
@@ -80,18 +80,7 @@ class FigureTable {
   Expected<void> save(const std::filesystem::path& folder) {
     std::vector<std::string_view> names(fields_.size());
     std::ranges::transform(fields_, names.begin(), [](std::size_t f) { return kFieldNames[f]; });
-    auto file =
-        results::CsvFile::create(folder / (name_ + ".csv"), folder / (name_ + ".csv.tmp"), names);
-    if (!file) {
-      return tl::unexpected(std::move(file.error()));
-    }
-    const results::Table table = decimator_.finish();
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-      if (auto written = file->write(table.row(i)); !written) {
-        return written;
-      }
-    }
-    return file->commit();
+    return write_table(folder, name_, names, decimator_.finish());
   }
 
  private:
@@ -157,9 +146,7 @@ class Stream {
       advance(end);  // at rest after the last set point
     }
     for (FigureTable& table : tables_) {
-      if (auto saved = table.save(folder); !saved) {
-        return tl::unexpected(std::move(saved.error()));
-      }
+      TWIN_CHECK(table.save(folder));
     }
     summary_.extent = high_ - low_;
     summary_.has_pen_up = lifted_ && lowered_;
@@ -198,7 +185,7 @@ class Stream {
   bool plan_only_;
   std::vector<FigureTable> tables_;
   std::deque<Record> pending_;  // records whose motion is not known yet
-  std::optional<PathMotion> motion_;
+  std::optional<MotionFilter> motion_;
   Record last_{};  // the record before pending_.front()
   DataSummary summary_;
   Vec2 low_ = Vec2::Constant(HUGE_VAL);
@@ -209,22 +196,11 @@ class Stream {
 
 Expected<void> save_programmed(const std::filesystem::path& folder, std::span<const Vec2> path) {
   constexpr std::array<std::string_view, 2> names{"x_mm", "y_mm"};
-  auto file = results::CsvFile::create(folder / "contour_programmed.csv",
-                                       folder / "contour_programmed.csv.tmp", names);
-  if (!file) {
-    return tl::unexpected(std::move(file.error()));
-  }
   results::Decimator decimator(2, {0, 1}, kMaxRows);
   for (const Vec2& point : path) {
     decimator.push({point.data(), 2});
   }
-  const results::Table table = decimator.finish();
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (auto written = file->write(table.row(i)); !written) {
-      return written;
-    }
-  }
-  return file->commit();
+  return write_table(folder, "contour_programmed", names, decimator.finish());
 }
 
 }  // namespace
@@ -232,28 +208,20 @@ Expected<void> save_programmed(const std::filesystem::path& folder, std::span<co
 Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
                                         const std::filesystem::path& folder,
                                         std::span<const Vec2> programmed, bool plan_only) {
-  auto reader = results::CsvReader::open(trace);
-  if (!reader) {
-    return tl::unexpected(std::move(reader.error()));
-  }
+  TWIN_TRY(results::CsvReader reader, results::CsvReader::open(trace));
   const std::size_t inputs = plan_only ? kPlanInputs : kRunInputs;
-  if (auto chosen = reader->select(std::span(kFieldNames).first(inputs)); !chosen) {
-    return tl::unexpected(std::move(chosen.error()));
-  }
+  TWIN_CHECK(reader.select(std::span(kFieldNames).first(inputs)));
   Stream stream(plan_only);
   Record record{};
   for (;;) {
-    auto got = reader->next(std::span(record).first(inputs));
-    if (!got) {
-      return tl::unexpected(std::move(got.error()));
-    }
-    if (!*got) {
+    TWIN_TRY(const bool has_row, reader.next(std::span(record).first(inputs)));
+    if (!has_row) {
       break;
     }
     if (!stream.push(record)) {
       return tl::unexpected<Error>(Error{ErrorCode::kFile,
                                          fmt::format("t_s {} s does not ascend", record[kT]),
-                                         trace.string(), reader->line(), 1});
+                                         trace.string(), reader.line(), 1});
     }
   }
   auto summary = stream.finish(folder);
@@ -262,9 +230,7 @@ Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
     return summary;
   }
   if (!programmed.empty()) {
-    if (auto saved = save_programmed(folder, programmed); !saved) {
-      return tl::unexpected(std::move(saved.error()));
-    }
+    TWIN_CHECK(save_programmed(folder, programmed));
   }
   summary->has_programmed = !programmed.empty();
   summary->has_limit = std::filesystem::exists(folder / results::kLimitName);

@@ -31,14 +31,11 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   if (error) {
     return file_error(folder, "create", error.value());
   }
-  const auto data = write_figure_data(input.directory / results::kTraceName, folder,
-                                      input.programmed, input.plan_only);
-  if (!data) {
-    return tl::unexpected(data.error());
-  }
+  TWIN_TRY(const DataSummary data, write_figure_data(input.directory / results::kTraceName, folder,
+                                                     input.programmed, input.plan_only));
   const RunOrigin origin = read_run_origin(input.directory);
   const std::string title = title_of(input.title, origin);
-  std::vector<Script> scripts = figure_scripts(title, *data, input.plan_only);
+  std::vector<Script> scripts = figure_scripts(title, data, input.plan_only);
   if (fs::exists(folder / results::kTimingName)) {
     scripts.push_back(timing_script(title, origin.period));
   } else {

@@ -101,14 +101,11 @@ std::string telling_line(const std::string& text) {
 }  // namespace
 
 Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::string& script) {
-  auto child = start(directory, script);
-  if (!child) {
-    return tl::unexpected(std::move(child.error()));
-  }
-  const std::string complaints = listen(child->complaints);
-  ::close(child->complaints);
+  TWIN_TRY(auto child, start(directory, script));
+  const std::string complaints = listen(child.complaints);
+  ::close(child.complaints);
   int status = 0;
-  while (::waitpid(child->pid, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     return {};

@@ -105,7 +105,6 @@ TableScene::~TableScene() = default;
 Expected<TableScene> TableScene::create(const std::filesystem::path& scene_xml,
                                         const std::string& camera, int width, int height,
                                         int samples) {
-  hal::mujoco::install_mujoco_handlers();
   auto model = hal::mujoco::load_model(scene_xml);
   if (!model) {
     return tl::unexpected(std::move(model.error()));

@@ -16,28 +16,31 @@ struct Step {
 
 /// Turns set points into arc lengths per period.
 ///
-/// Set points are joined by chords c, but the machine moves along the arc. On a path of curvature
-/// kappa it turns by x in the period, and the arc is
+/// The chord c joins two set points, but the machine moves along the arc between them. On a path of
+/// curvature kappa the path turns by x in the period, and the arc a follows from
 ///   sin(x / 2) = kappa c / 2,   a = c (x / 2) / sin(x / 2),                          (1)
-/// longer by c x^2 / 24 and exact on a circle. That looks small, yet the second difference of
-/// chords misses T / 24 d/dt(a_n^2 / v) of the tangential acceleration, a tenth of it at a normal
-/// acceleration of 2450 mm/s^2, and the third difference more.
+/// which is exact on a circle. The arc is longer than the chord by c x^2 / 24. That looks small.
+/// Yet the second difference of chords misses T / 24 d/dt(a_n^2 / v) of the tangential
+/// acceleration, which is a tenth of it at a normal acceleration of 2450 mm/s^2. The third
+/// difference misses more.
 ///
-/// The curvature vector at set point i is that of the circle through i - 1, i, i + 1,
-///   kappa_i = 2 (e_(i-1) x e_i) / |p_(i+1) - p_(i-1)|,   e_i = unit (p_(i+1) - p_i), (2)
-/// and its mean over the period between points i and i + 1, of a polynomial through four points,
+/// The curvature vector at set point i is that of the circle through the points i - 1, i, i + 1,
+///   kappa_i = 2 (e_(i-1) x e_i) / |p_(i+1) - p_(i-1)|,   e_i = unit (p_(i+1) - p_i). (2)
+/// Its mean over the period between points i and i + 1 is that of the polynomial through four
+/// points,
 ///   kappa = (-11 kappa_(i-1) + 71 kappa_i + 71 kappa_(i+1) - 11 kappa_(i+2)) / 120.  (3)
 ///
-/// (The weights make up for kappa_i itself being a mean over two periods; exact for a curvature
-/// cubic in s.)
+/// The weights take into account that kappa_i itself is a mean over two periods. They are exact for
+/// a curvature that is a cubic function of s.
 ///
-/// Where the curvature jumps or a corner lies inside a period, no formula can know the arc: `doubt`
-/// says how much is open. It is the effect on (1) of the second difference of kappa, dx = c max
-/// |kappa_(i+1) - 2 kappa_i + kappa_(i-1)|,
+/// Where the curvature jumps or a corner lies inside a period, set points do not tell the arc. The
+/// field `doubt` says how far it may be off: by the effect on (1) of the second difference of
+/// kappa,
+///   dx = c max |kappa_(i+1) - 2 kappa_i + kappa_(i-1)|,
 ///   u = c (2 x dx + dx^2 + 3 l^2) / 24,                                             (4)
-/// with l the turning angle that stands out from its neighbours (a corner between two set points);
-/// more than kSharp within a period is a corner for certain and anything up to the longest of the
-/// chords around it is open.
+/// where l is the part of the turning angle that exceeds that of the neighbours, as at a corner
+/// between two set points. A turn of more than kSharp within a period is a corner for certain. The
+/// arc may then be off by as much as the longest of the chords around it.
 class ArcSteps {
  public:
   static constexpr double kSharp = 0.7;  ///< turning angle of one period that no curve has [rad]

@@ -1,79 +1,52 @@
 #include "results/metrics/block_distance.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/root.hpp"
 #include "gcode/programmed_curve.hpp"
 #include "results/metrics/nurbs_distance.hpp"
 
 namespace twin::results {
 namespace {
 
-using gcode::ArcGeometry;
 using gcode::Block;
 using gcode::Motion;
 
-constexpr double kStep = 0.26;       // sampling of an arc: just under 15 deg [rad]
-constexpr int kZoom = 16;            // samples per round where Newton's method does not serve
-constexpr int kMostIterations = 60;  // Newton needs 4; bisection alone 50
+/// Angle between the samples of an arc, just under 15 deg [rad]. A bracket of two samples has to
+/// hold one minimum; twice the angle halves the work, and a helix of little rise may hide a
+/// minimum.
+constexpr double kStep = 0.26;
 
-/// C(f), C'(f), C''(f) of an arc.
-struct ArcPoint {
-  Vec3 position;  // [mm]
-  Vec3 first;     // [mm]
-  Vec3 second;    // [mm]
-};
+/// Samples of a round of zooming in; each round divides the interval by half of that.
+constexpr int kZoom = 16;
 
-ArcPoint evaluate(const ArcGeometry& g, double f) noexcept {
-  const double a = f * g.sweep;
-  const Vec3 radial = std::cos(a) * g.e1 + std::sin(a) * g.e2;
-  const Vec3 along = std::cos(a) * g.e2 - std::sin(a) * g.e1;
-  const Vec3 axis = g.e1.cross(g.e2);
-  const double r = g.radius + f * g.radius_change;
-  return {g.centre + r * radial + f * g.rise * axis,
-          g.radius_change * radial + r * g.sweep * along + g.rise * axis,
-          2.0 * g.radius_change * g.sweep * along - r * g.sweep * g.sweep * radial};
-}
+constexpr double kSameFraction = 1e-13;  // two fractions of an arc that are one
 
 /// Half the derivative of the squared distance at f, and the derivative of that.
-std::array<double, 2> slope(const ArcGeometry& g, const Vec3& p, View view, double f) noexcept {
-  const ArcPoint at = evaluate(g, f);
+ValueAndSlope slope(const geometry::Arc& g, const Vec3& p, View view, double f) noexcept {
+  const geometry::Derivatives at = derivatives_at(g, f);
   const Vec3 d = seen(at.position - p, view);
   return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
 }
 
-/// Minimum of the squared distance within [lo, hi] that holds just one, by bracketed Newton steps.
-double refine(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
-  if (slope(g, p, view, lo)[0] >= 0.0) {
+/// Minimum of the squared distance within [lo, hi] that holds just one, by Newton's method.
+double refine(const geometry::Arc& g, const Vec3& p, View view, double lo, double hi) noexcept {
+  if (slope(g, p, view, lo).value >= 0.0) {
     return lo;
   }
-  if (slope(g, p, view, hi)[0] <= 0.0) {
+  if (slope(g, p, view, hi).value <= 0.0) {
     return hi;
   }
-  double f = 0.5 * (lo + hi);
-  for (int i = 0; i < kMostIterations; ++i) {
-    const auto [first, second] = slope(g, p, view, f);
-    (first > 0.0 ? hi : lo) = f;
-    double next = f - first / second;
-    if (!(second > 0.0 && next > lo &&
-          next < hi)) {  // not towards a maximum, not out of the bracket
-      next = 0.5 * (lo + hi);
-    }
-    const bool is_done = std::abs(next - f) < 1e-13;
-    f = next;
-    if (is_done) {
-      break;
-    }
-  }
-  return f;
+  const auto slope_at = [&](double f) { return slope(g, p, view, f); };
+  return bracketed_newton(slope_at, lo, hi, 0.5 * (lo + hi), {-1.0, kSameFraction, kSameFraction})
+      .x;
 }
 
 /// The same by ever finer sampling, for an arc seen edge-on: its twin minima may be as close as
 /// they like.
-double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double hi) noexcept {
+double zoom_in(const geometry::Arc& g, const Vec3& p, View view, double lo, double hi) noexcept {
   double best = lo;
   while (hi - lo > 1e-10) {
     const double from = lo;
@@ -81,7 +54,7 @@ double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= kZoom; ++i) {
       const double f = from + step * i;
-      const double d2 = seen(evaluate(g, f).position - p, view).squaredNorm();
+      const double d2 = seen(point_at(g, f) - p, view).squaredNorm();
       if (d2 < least) {
         least = d2;
         best = f;
@@ -93,7 +66,7 @@ double zoom_in(const ArcGeometry& g, const Vec3& p, View view, double lo, double
   return best;
 }
 
-bool is_ellipse(const ArcGeometry& g, View view) noexcept {
+bool is_ellipse(const geometry::Arc& g, View view) noexcept {
   return view == View::kAlongZ && std::hypot(g.e1.z(), g.e2.z()) > 1e-9;
 }
 
@@ -135,7 +108,7 @@ NearestPoint nearest_of_arc(const Block& block, const Vec3& p, View view, double
 Vec3 point_at(const Block& block, double fraction) noexcept {
   switch (block.motion) {
     case Motion::kArc:
-      return evaluate(block.arc, fraction).position;
+      return point_at(block.arc, fraction);
     case Motion::kNurbs: {
       const gcode::ProgrammedCurve& programmed = *block.nurbs;
       const double s = fraction * programmed.arc_length.length();
@@ -159,7 +132,7 @@ double block_length(const Block& block, View view) noexcept {
   if (block.motion != Motion::kArc) {
     return seen(block.end - block.start, view).norm();
   }
-  const ArcGeometry& g = block.arc;
+  const geometry::Arc& g = block.arc;
   const double around = (g.radius + 0.5 * g.radius_change) * g.sweep;
   return view == View::kAlongZ && !is_ellipse(g, view) ? around : std::hypot(around, g.rise);
 }

@@ -37,11 +37,12 @@ double block_length(const gcode::Block& block, View view) noexcept;
 
 /// Place of a block between two fractions that is nearest to a point.
 ///
-/// Line: the foot of the perpendicular. Arc and helix: no chords; the squared distance
-///   D(f) = |C(f) - p|^2,  C(f) of gcode::ArcGeometry,
-/// is sampled every 15 deg, and beside each sample that is lower than its neighbours the root of
-/// D'(f) is found by Newton's method inside a bracket, to 1e-13 of the way. (A helix has a minimum
-/// on each turn.) A tilted arc seen along Z, an ellipse, is sampled finer and finer instead.
+/// On a line it is the foot of the perpendicular. On an arc or helix the squared distance
+///   D(f) = |C(f) - p|^2,  C(f) of geometry::Arc,
+/// is sampled every 15 deg. Around each sample that is lower than its neighbours, Newton's method
+/// inside a bracket (core/root.hpp) finds the root of D'(f) to 1e-13 of the way; a helix has a
+/// minimum on each turn. A tilted arc that is seen along Z is an ellipse, whose twin minima may lie
+/// as close as they like; it is sampled finer and finer instead.
 ///
 /// @param point  [mm]
 /// @param from, to  fractions, 0 <= from <= to <= 1

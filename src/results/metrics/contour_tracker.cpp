@@ -6,10 +6,14 @@
 namespace twin::results {
 namespace {
 
-constexpr double kLost =
-    0.05;  // a command farther than this from the path is looked for on its whole block [mm]
-constexpr double kTrusted =
-    0.99;  // of a gap is skipped: the arc length of a spiral is known to rounding only
+/// A command farther than this from the path is searched for on its whole block [mm]. A smaller
+/// value searches whole blocks more often; a larger one may follow a wrong turn of a spiral for
+/// longer.
+constexpr double kLost = 0.05;
+
+/// Share of a gap that the search skips. It is below 1 because the arc length of a spiral is known
+/// to rounding only.
+constexpr double kTrusted = 0.99;
 
 }  // namespace
 
@@ -74,10 +78,11 @@ double ContourTracker::separation(const Vec3& a, const Vec3& b) const noexcept {
   return view_ == View::kSpace ? (a - b).norm() : std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
-// Looks at one piece, and says from where on (forward) or up to where (backward) the walk has to
-// look again.
+/// Searches one piece.
+/// @returns arc length from which on (forward) or up to which (backward) a nearer place may follow
 double ContourTracker::look_at(const Vec3& point, double lo, double hi, const Piece& piece,
-                               bool forward, Found& best) const {
+                               Direction direction, Found& best) const {
+  const bool is_forward = direction == Direction::kForward;
   const double length = piece.s1 - piece.s0;
   const double from = length > 0.0 ? std::clamp((lo - piece.s0) / length, 0.0, 1.0) : 0.0;
   const double to = length > 0.0 ? std::clamp((hi - piece.s0) / length, from, 1.0) : 1.0;
@@ -85,9 +90,9 @@ double ContourTracker::look_at(const Vec3& point, double lo, double hi, const Pi
   if (!best.is_known || place.distance < best.place.distance) {
     best = {place, piece.s0 + place.fraction * length, true};
   }
-  const Vec3 end = forward ? piece.block.end : piece.block.start;
+  const Vec3 end = is_forward ? piece.block.end : piece.block.start;
   const double gap = kTrusted * (separation(point, end) - best.place.distance);
-  return forward ? piece.s1 + std::max(gap, 0.0) : piece.s0 - std::max(gap, 0.0);
+  return is_forward ? piece.s1 + std::max(gap, 0.0) : piece.s0 - std::max(gap, 0.0);
 }
 
 ContourTracker::Found ContourTracker::search(const Vec3& point, double lo, double hi,
@@ -103,13 +108,13 @@ ContourTracker::Found ContourTracker::search(const Vec3& point, double lo, doubl
   double skip = lo;
   for (std::size_t i = start; i < pieces_.size() && pieces_[i].s0 <= hi; ++i) {
     if (pieces_[i].s1 >= skip) {
-      skip = look_at(point, lo, hi, pieces_[i], true, best);
+      skip = look_at(point, lo, hi, pieces_[i], Direction::kForward, best);
     }
   }
   skip = pieces_[start].s0;
   for (std::size_t i = start; i-- > 0 && pieces_[i].s1 >= lo;) {
     if (pieces_[i].s0 <= skip) {
-      skip = look_at(point, lo, hi, pieces_[i], false, best);
+      skip = look_at(point, lo, hi, pieces_[i], Direction::kBackward, best);
     }
   }
   return best;

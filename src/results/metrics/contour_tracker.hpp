@@ -13,44 +13,49 @@ namespace twin::results {
 /// Contour error of a stream of positions against a stream of NC blocks, in bounded memory.
 ///
 /// The contour error is the distance to the nearest place of the programmed path, with lines and
-/// arcs exact. Nearest of the whole path would let a path that passes close to itself hide an
-/// error, so only the part is looked at that the machine can be on:
+/// arcs exact. Where a path passes close to itself, the nearest place of the whole path could
+/// belong to another pass and hide an error. So only that part of the path is searched on which the
+/// machine can be:
 ///
 ///              c - w          c          c + w
 ///   -------------[------------x------------]----------->  arc length s
 ///                             command's place
 ///
-/// c is the place of the command: nearest to it within its NC block, not behind its place of the
-/// sample before (but for kBack). The half-width w = window + 4 |position - command|, at most
-/// kReach: the tracking error displaces the position by its own size along the path, more where the
-/// path bends, less in no case.
+/// c is the place of the command: the nearest place within its NC block that is not behind the
+/// place of the command before (by more than kBack). The half width is
+///   w = window + 4 |position - command|,   at most kReach.
+/// The tracking error moves the position along the path by its own size, and by more where the path
+/// bends, which the factor 4 covers.
 ///
-/// Walking outwards from c, a block end that is farther from the position than the best place by g
-/// lets the walk skip the next g of arc length, for a path cannot come nearer faster than it
-/// advances.
+/// The search goes outwards from c. Where the end of a block is farther from the position than the
+/// best place so far, by g, the search skips the next g of arc length: a path comes no nearer than
+/// it advances.
 class ContourTracker {
  public:
-  static constexpr double kReach = 20.0;  ///< most arc length looked at either side [mm]
-  static constexpr double kMargin =
-      0.5;  ///< the command may be past its block's ends by this much [mm]
-  static constexpr double kBack = 0.1;  ///< the command's place may step back by this much [mm]
+  /// Most arc length that is searched on either side [mm]. Twice as much finds the place of a
+  /// machine that lags by more than 5 mm, and more of the program is held in memory.
+  static constexpr double kReach = 20.0;
+  /// How far the command may lie beyond the ends of its block [mm]: smoothing moves block ends.
+  static constexpr double kMargin = 0.5;
+  /// How far the place of the command may step back [mm], as it does inside a sharp corner.
+  static constexpr double kBack = 0.1;
 
-  /// @param window  arc length looked at either side of a position that is on its command [mm]
+  /// @param window  arc length that is searched on either side where the tracking error is zero [mm]
   explicit ContourTracker(View view, double window = 0.5) : view_(view), window_(window) {}
 
-  /// Appends the next block of the program; all of them, in order, those at rest included.
+  /// Appends the next block of the program. Every block is appended in order, also one at rest.
   void add(const gcode::Block& block);
 
   /// Arc length known beyond the end of a block; negative if the block itself is not known yet
   /// [mm].
   double ahead(std::int64_t block) const noexcept;
 
-  /// True when no further block can change what follow() and nearest() say of this command block.
+  /// Whether the blocks so far decide what follow() and nearest() return for a command on this
+  /// block.
   bool is_ready(std::int64_t block) const noexcept { return ahead(block) >= kReach + kMargin; }
 
   /// Moves on to the next command.
-  /// @param block    NC block the command is on, from 0, not lower than before; it must have been
-  /// added
+  /// @param block    NC block of the command, from 0, no lower than before; it must have been added
   /// @param command  set point [mm]
   void follow(std::int64_t block, const Vec3& command);
 
@@ -67,17 +72,18 @@ class ContourTracker {
     double s0;  // arc length of the path at its start [mm]
     double s1;  // and at its end [mm]
   };
-  /// Place in arc length [mm] with the distance found there.
+  /// The nearest place that a search has found so far.
   struct Found {
     NearestPoint place;
-    double s = 0.0;
-    bool is_known = false;
+    double s = 0.0;         // its arc length [mm]
+    bool is_known = false;  // there is one
   };
 
   double separation(const Vec3& a, const Vec3& b) const noexcept;
   std::size_t index_of(std::int64_t block) const noexcept;
   Found search(const Vec3& point, double lo, double hi, std::size_t start) const;
-  double look_at(const Vec3& point, double lo, double hi, const Piece& piece, bool forward,
+  enum class Direction : std::uint8_t { kForward, kBackward };
+  double look_at(const Vec3& point, double lo, double hi, const Piece& piece, Direction direction,
                  Found& best) const;
   void drop_old();
 

@@ -9,27 +9,30 @@
 
 namespace twin::results {
 
-/// How far the feedrate that the set points really have is off the commanded one, as a share of the
-/// commanded one:  |V_true - V| / V  of every period.
+/// Relative error of the feedrate in every period:  |V_true - V| / V.
 ///
-/// V_true is the way of a period, from ArcSteps, over the period. V is the mean over the period of
-/// the commanded feedrate, of the cubic through four successive set points:
-///   (v_1 + v_2)/2 - (v_3 - v_2 - v_1 + v_0)/24.
-/// Neither is known better than the set points tell: the way is in doubt where the curvature
-/// changes within a period (ArcSteps), V where the jerk does, by a twelfth of the third difference
-/// of v there or in a period beside. What lies within the sum of both counts as none. Periods
-/// slower than 1 mm/s are left out, and those whose way is in doubt by more than itself: across a
-/// corner the chord says nothing of the way.
+/// V_true is the feedrate that the set points really have: the length of path covered in a period,
+/// from ArcSteps, divided by the period. V is the mean of the commanded feedrate over the period. It
+/// is taken from the cubic through four successive set points:
+///   V = (v_1 + v_2)/2 - (v_3 - v_2 - v_1 + v_0)/24.
+///
+/// The set points determine both only up to a doubt. The length is in doubt where the curvature
+/// changes within a period (see ArcSteps). V is in doubt where the jerk changes, by a twelfth of the
+/// largest third difference of v in this period and its neighbours. An error within the sum of the
+/// two doubts counts as zero.
+///
+/// Two kinds of periods are left out: those slower than 1 mm/s, and those whose length is in doubt
+/// by more than its own chord, as across a corner, where the chord tells nothing about the length.
 class FeedrateFluctuation {
  public:
   /// @param period  interpolation period T > 0 [s]
   explicit FeedrateFluctuation(double period) : period_(period) {}
 
-  /// add() number n completes the period from set point n - kDelay to the next.
+  /// The call of add() for set point n completes the period from set point n - kDelay to the next.
   static constexpr int kDelay = 4;
 
   /// Takes the next set point [mm] and its feedrate [mm/s].
-  /// @returns the share of the period it completes; nothing where that is left out
+  /// @returns the relative error of the period that this completes; nothing where it is left out
   /// @note Real-time safe.
   std::optional<double> add(const Vec3& point, double feedrate) noexcept;
 

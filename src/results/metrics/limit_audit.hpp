@@ -25,30 +25,31 @@ struct AuditPeaks {
   std::array<AxisPeaks, 3> axis;         ///< x, y, z
 };
 
-/// Feedrate, acceleration and jerk of a trajectory from its set points alone, as they come, in
-/// constant memory.
+/// Peaks of feedrate, acceleration and jerk of a trajectory, computed from its set points alone as
+/// they arrive, in constant memory.
 ///
-/// The planner's own numbers are not asked. Before the first and after the last set point the
-/// machine is at rest, so a trajectory that does not start and end at rest shows.
+/// The audit does not use any number of the planner. It takes the machine to be at rest before the
+/// first and after the last set point, so a trajectory that does not start or end at rest shows.
 ///
-/// Why differences may be trusted: the m-step difference of order k of a function f over (m T)^k is
-/// the mean of its k-th derivative, weighted by a B-spline over k m T that is positive and has
-/// area 1. For one axis, and for the arc length along the path, it therefore never exceeds the true
-/// peak; a step of jerk inside a period is averaged.
+/// Differences can be trusted for this reason: the m-step difference of order k of a function f,
+/// divided by (m T)^k, is a weighted mean of the k-th derivative of f. The weight is a B-spline over
+/// k m T, which is positive and has area 1. For one axis, and for the arc length along the path, the
+/// difference therefore never exceeds the true peak; a step of jerk inside a period is averaged.
 ///
-/// Per axis f = x, y, z with m = 1. Along the path f is the arc length of ArcSteps, each period of
-/// which carries a doubt u; a difference of order 2 or 3 then carries
+/// For the axes, f is x, y or z and m = 1. Along the path, f is the arc length of ArcSteps. It is
+/// known in each period only up to a doubt u, so that a difference of order 2 or 3 is in doubt by
 ///   e_2 = (U + U') / (m T)^2,   e_3 = (U + 2 U' + U'') / (m T)^3                     (1)
-/// with U, U', U'' the sums of u over its runs of m periods. At each place the smallest m of 1, 2,
-/// 4, 8, 16 counts whose e is below 5 % of the limit, or m = 16 if none is: a corner or a step of
-/// curvature does not cry wolf, and on smooth path nothing is smeared.
+/// where U, U', U'' are the sums of u over the runs of m periods that enter the difference. At each
+/// instant the smallest m of 1, 2, 4, 8, 16 is used whose e is below 5 % of the limit, or m = 16 if
+/// there is none. So a corner or a step of curvature raises no false alarm, and nothing is smeared
+/// where the path is smooth.
 ///
-/// Normal acceleration: the part of the plain second difference that is square to p_(i+1) -
-/// p_(i-1), times 1 + x^2 / 12 for the mean over a bend of x per period.
+/// The normal acceleration is the part of the plain second difference that is square to
+/// p_(i+1) - p_(i-1). A factor 1 + x^2 / 12 makes up for averaging over a bend of x per period.
 class LimitAudit {
  public:
   /// @param period  interpolation period T > 0 [s]
-  /// @param limits  acceleration and jerk set what doubt is small
+  /// @param limits  a doubt is small against the acceleration and jerk of these
   LimitAudit(double period, const Limits& limits);
 
   /// Takes the next set point [mm]. Real-time safe.

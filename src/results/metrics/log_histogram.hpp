@@ -8,8 +8,9 @@ namespace twin::results {
 
 /// Distribution of positive numbers over many decades, in a fixed amount of memory.
 ///
-/// Bin k holds [kLowest 2^(k/16), kLowest 2^((k+1)/16)), so a quantile is known to 2^(1/16) - 1
-/// = 4.4 %; the largest number is kept exactly. Meant for cycle times in seconds: 1 ns to 18 s.
+/// Bin k holds the numbers in [kLowest 2^(k/16), kLowest 2^((k+1)/16)). A quantile is therefore
+/// known to 2^(1/16) - 1 = 4.4 %; the largest number is kept exactly. The range suits cycle times in
+/// seconds: 1 ns to 18 s.
 class LogHistogram {
  public:
   static constexpr double kLowest = 1e-9;

@@ -1,17 +1,16 @@
 #include "results/metrics/nurbs_distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/root.hpp"
 #include "gcode/programmed_curve.hpp"
 
 namespace twin::results {
 namespace {
 
-constexpr int kMostNurbsIterations = 60;
-constexpr double kSmallStep = 1e-14;  // of the domain
+constexpr double kSameParameter = 1e-14;  // two parameters that are one, as a share of the domain
 
 /// One look-up: the curve, the point, and how they are seen.
 struct Search {
@@ -24,7 +23,7 @@ struct Search {
   }
 
   /// g and dg/du.
-  std::array<double, 2> slope(double u) const noexcept {
+  ValueAndSlope slope(double u) const noexcept {
     const geometry::Derivatives at = programmed.curve.derivatives(u);
     const Vec3 d = seen(at.position - p, view);
     return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
@@ -32,28 +31,15 @@ struct Search {
 
   /// Minimum within [lo, hi] that holds just one.
   double refine(double lo, double hi) const noexcept {
-    if (slope(lo)[0] >= 0.0) {
+    if (slope(lo).value >= 0.0) {
       return lo;
     }
-    if (slope(hi)[0] <= 0.0) {
+    if (slope(hi).value <= 0.0) {
       return hi;
     }
-    const double small = kSmallStep * (programmed.curve.u_max() - programmed.curve.u_min());
-    double u = 0.5 * (lo + hi);
-    for (int i = 0; i < kMostNurbsIterations; ++i) {
-      const auto [first, second] = slope(u);
-      (first > 0.0 ? hi : lo) = u;
-      double next = u - first / second;
-      if (!(second > 0.0 && next > lo && next < hi)) {
-        next = 0.5 * (lo + hi);
-      }
-      const bool is_done = std::abs(next - u) < small;
-      u = next;
-      if (is_done) {
-        break;
-      }
-    }
-    return u;
+    const double same = kSameParameter * (programmed.curve.u_max() - programmed.curve.u_min());
+    const auto slope_at = [&](double u) { return slope(u); };
+    return bracketed_newton(slope_at, lo, hi, 0.5 * (lo + hi), {-1.0, same, same}).x;
   }
 };
 

@@ -6,10 +6,11 @@ namespace twin::results {
 
 /// nearest() of a NURBS block.
 ///
-/// The samples of its arc length stand a few degrees of turn apart. Beside each that is nearer than
-/// its neighbours the root of
-///   g(u) = (C(u) - p) . C'(u)
-/// is found by Newton's method inside a bracket: no chords.
+/// The samples of the arc length stand a few degrees of turn apart. Around each sample that is
+/// nearer than its neighbours, the minimum of the distance is the root of
+///   g(u) = (C(u) - p) . C'(u),
+/// which Newton's method finds inside the bracket of both neighbours. The curve itself is
+/// evaluated, and no chord of it.
 NearestPoint nearest_of_nurbs(const gcode::Block& block, const Vec3& point, View view, double from,
                               double to) noexcept;
 

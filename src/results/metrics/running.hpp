@@ -9,8 +9,8 @@ namespace twin::results {
 
 /// Count, extremes, mean and root mean square of a stream of numbers, in constant memory.
 ///
-/// The two sums are compensated (Kahan): after 10^9 terms they are still good to the last digits. A
-/// number that is not finite makes the sums not finite, so that it cannot pass unseen.
+/// Both sums are compensated (Kahan), so that they keep their last digits over 10^9 terms. A number
+/// that is not finite makes the sums not finite, so that it cannot pass unnoticed.
 class Running {
  public:
   void add(double x) noexcept {

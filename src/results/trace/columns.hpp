@@ -1,9 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
-/// Names of the columns of trace.csv, in their order; units are part of the names and both are an
+#include "results/trace/sample.hpp"
+#include "twin/trace.hpp"
+
+/// Names of the columns of a trace, in their order; units are part of the names and both are an
 /// interface.
 namespace twin::results {
 
@@ -28,10 +33,26 @@ inline constexpr std::array<std::string_view, 16> kColumns{
     "y_tracking_error_um"};
 
 inline constexpr std::string_view kTraceName = "trace.csv";
+inline constexpr std::string_view kPartialTraceName = "trace.partial.csv";
 /// In the folder of the plots: histograms of the periods of a run on the wall clock.
 inline constexpr std::string_view kTimingName = "timing.csv";
-inline constexpr std::string_view kPartialTraceName = "trace.partial.csv";
-inline constexpr std::string_view kLimitName =
-    "feedrate_limit.csv";  ///< in the folder of the plots
+/// In the folder of the plots: the feedrate limit over time.
+inline constexpr std::string_view kLimitName = "feedrate_limit.csv";
+
+/// Which columns a trace has.
+enum class Layout {
+  kPlan,  ///< set points alone: the first kPlanColumns columns
+  kRun,   ///< all columns
+};
+
+/// The columns of a layout. @param period interpolation period [s]
+TraceHeader trace_header(Layout layout, double period);
+
+/// Appends a sample to rows of a trace. Tracking errors are command less encoder.
+///
+/// @param contour_error  distance of the encoder's position from the programmed path [mm], used by
+///                       Layout::kRun
+void append_row(const Sample& sample, double contour_error, Layout layout,
+                std::vector<double>& rows);
 
 }  // namespace twin::results

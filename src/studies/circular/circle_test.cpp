@@ -105,9 +105,9 @@ Expected<SenseRun> run_sense(const CircleTest& test, Sense sense,
   return SenseRun{std::move(turn), result.summary.interpolator};
 }
 
-Figures figures_of(const BothPaths& paths, const CircleTest& test,
+Measured figures_of(const BothPaths& paths, const CircleTest& test,
                    const std::array<double, 2>& reached) {
-  Figures figures;
+  Measured figures;
   figures.deviations = evaluate(paths, test.radius);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     figures.spikes[i] =

@@ -11,7 +11,7 @@
 #include "session/machine.hpp"
 #include "studies/circular/circle_program.hpp"
 #include "studies/circular/measured_turn.hpp"
-#include "studies/circular/report.hpp"
+#include "studies/circular/circular_report.hpp"
 
 namespace twin::studies::circular {
 

@@ -21,8 +21,8 @@ struct SenseDeviations {
   Circle least_squares;     ///< of the path [mm]
 };
 
-/// What it says of both. H is of the first edition (1996); later ones have G(b) and D in its place
-/// and write "error" for "deviation".
+/// What ISO 230-4 says of both senses together. H is of its first edition (1996); later editions
+/// have G(b) and D in its place and write "error" for "deviation".
 struct Deviations {
   std::array<SenseDeviations, 2> sense;  ///< counter-clockwise, clockwise
   double bidirectional = 0.0;            ///< G(b): width of the minimum zone of both paths [mm]

@@ -26,9 +26,7 @@ Expected<MeasuredTurn> read_measured_turn(const std::filesystem::path& trace) {
       turn.encoder.emplace_back(row[4], row[5]);
     }
   };
-  if (auto read = results::read_rows(trace, kWanted, take); !read) {
-    return tl::unexpected(read.error());
-  }
+  TWIN_CHECK(results::read_rows(trace, kWanted, take));
   const std::size_t count = turn.table.size();
   if (count < kFewestRows) {
     return fail(ErrorCode::kProgram,

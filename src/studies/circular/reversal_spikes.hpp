@@ -18,11 +18,12 @@ struct Spike {
 /// The spikes of one path.
 struct ReversalSpikes {
   std::array<Spike, 4> quadrant;  ///< at 0 (X turns back), 90 (Y), 180 (X), 270 deg (Y)
-  double ripple = 0.0;  ///< largest deviation away from the reversals: no spike shows below it [mm]
+  double ripple = 0.0;  ///< largest deviation away from the reversals; hides smaller spikes [mm]
 };
 
-/// How far behind a reversal its spike is looked for: what passes in 50 ms, 15 deg at least, 45 deg
-/// at most [rad]. @param angular_velocity [rad/s]
+/// How far behind a reversal its spike is looked for [rad]: the angle that passes in 50 ms, but at
+/// least 15 deg and at most 45 deg.
+/// @param angular_velocity  [rad/s]
 double spike_reach(double angular_velocity);
 
 /// Looks for the spike of each reversal.

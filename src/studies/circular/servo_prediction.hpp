@@ -11,7 +11,7 @@ namespace twin::studies::circular {
 ///   eps / r = 1 - sqrt((Kf^2 w^2 + Kp^2) / (w^2 + Kp^2)),   w = v / r    [WY09, Eq. 3]
 /// as the mean over both axes.
 ///
-/// It knows a drive without lag, and neither sampling, friction, Kd nor Ka.
+/// Eq. 3 assumes a drive without lag; it leaves out sampling, friction, Kd and Ka.
 ///
 /// @param gains     of x and y
 /// @param radius    r [mm]

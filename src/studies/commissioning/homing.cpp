@@ -30,17 +30,12 @@ Expected<void> home_axis(hal::Axis axis, const HomeSettings& settings, double le
   const double outward = settings.is_positive ? 1.0 : -1.0;
   HomingMove next{axis, settings.is_positive, outward * kMargin * length, settings.seek_feedrate,
                   Until::kLimitReached};
-  if (auto reached = seek(next, "the limit switch", move); !reached) {
-    return tl::unexpected(reached.error());
-  }
+  TWIN_CHECK(seek(next, "the limit switch", move));
   next.distance = -outward * (kMargin * lead + kFarthestBehind);
   next.feedrate = settings.index_feedrate;
   next.until = Until::kIndex;
-  const auto index = seek(next, "the index", move);
-  if (!index) {
-    return tl::unexpected(index.error());
-  }
-  next.distance = *index->met_at - index->position + settings.zero;
+  TWIN_TRY(const auto index, seek(next, "the index", move));
+  next.distance = *index.met_at - index.position + settings.zero;
   next.feedrate = settings.seek_feedrate;
   next.until = Until::kNothing;
   return move(next).map([](const HomingStop&) {});

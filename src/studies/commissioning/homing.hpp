@@ -11,7 +11,7 @@
 
 namespace twin::studies::commissioning {
 
-/// What ends a move before its way is done.
+/// What ends a move before its whole distance is covered.
 enum class Until : std::uint8_t {
   kNothing,
   kLimitReached,  ///< the home switch opens
@@ -30,7 +30,7 @@ struct HomingMove {
 /// How a move ended. Positions are those of the encoder, from where the move began [mm].
 struct HomingStop {
   double position = 0.0;         ///< at rest, at its end
-  std::optional<double> met_at;  ///< where the thing was met; empty where it was not
+  std::optional<double> met_at;  ///< where `until` came true; empty where it did not
 };
 
 /// Makes one move from rest to rest.
@@ -42,7 +42,8 @@ using MakeMove = std::function<Expected<HomingStop>(const HomingMove&)>;
 ///   2. slowly away from it to the first index behind where it closes,
 ///   3. to where the index was met, and from there by `zero`.
 ///
-/// The axis then stands at its zero, within the way of one period at index_feedrate and a count.
+/// The axis then stands at its zero, to within a count and the distance of one period at
+/// index_feedrate.
 /// @param length  the axis' whole travel: the farthest way to the switch [mm]
 /// @param lead    the farthest way from index to index [mm]
 Expected<void> home_axis(hal::Axis axis, const HomeSettings& settings, double length, double lead,

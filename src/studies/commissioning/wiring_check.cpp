@@ -111,9 +111,7 @@ Expected<Prober::Velocities> Prober::hold(std::size_t axis, double volts, double
     if (i == half) {
       from = {position(hal::kX), position(hal::kY)};
     }
-    if (auto done = exchange(); !done) {
-      return tl::unexpected(done.error());
-    }
+    TWIN_CHECK(exchange());
   }
   const double elapsed = static_cast<double>(half) * period_;
   return Velocities{(position(hal::kX) - from[0]) / elapsed,
@@ -138,29 +136,22 @@ Expected<AxisWiringReport> Prober::check(std::size_t axis) {
   start_ = {position(hal::kX), position(hal::kY)};
   outputs_ = {};
   outputs_.servo_on[axis] = true;
-  if (auto ready = wait_until_ready(axis); !ready) {
-    return tl::unexpected(ready.error());
-  }
+  TWIN_CHECK(wait_until_ready(axis));
   AxisWiringReport report;
   report.expected_scale = machine_.info().mm_per_s_per_volt[axis];
   const double volts = settings_.velocity / report.expected_scale;
   const std::array<double, 5> steps{0.0, volts, 0.0, -volts, 0.0};
   std::array<Velocities, 5> velocities{};
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    auto held = hold(axis, steps[i], steps[i] == 0.0 ? settings_.rest : settings_.pulse);
-    if (!held) {
-      return tl::unexpected(held.error());
-    }
-    velocities[i] = *held;
+    TWIN_TRY(auto held, hold(axis, steps[i], steps[i] == 0.0 ? settings_.rest : settings_.pulse));
+    velocities[i] = held;
   }
   outputs_ = {};
   report.drift = velocities[0][axis];
   report.measured_scale = (velocities[1][axis] - velocities[3][axis]) / (2.0 * volts);
   report.other_scale = (velocities[1][other] - velocities[3][other]) / (2.0 * volts);
   report.finding = judge(report);
-  if (auto off = exchange(); !off) {
-    return tl::unexpected(off.error());
-  }
+  TWIN_CHECK(exchange());
   return report;
 }
 
@@ -170,20 +161,13 @@ Expected<WiringReport> check_wiring(hal::Machine& machine, const WiringCheckSett
                                     double period, const WaitForPeriod& wait,
                                     const std::atomic<bool>& stop) {
   hal::ActiveMachine active(&machine);
-  if (auto started = active.start(period); !started) {
-    return tl::unexpected(started.error());
-  }
+  TWIN_CHECK(active.start(period));
   Prober prober(machine, settings, period, wait, stop);
-  if (auto looked = prober.look(); !looked) {
-    return tl::unexpected(looked.error());
-  }
+  TWIN_CHECK(prober.look());
   WiringReport report;
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
-    auto checked = prober.check(axis);
-    if (!checked) {
-      return tl::unexpected(checked.error());
-    }
-    report[axis] = *checked;
+    TWIN_TRY(auto checked, prober.check(axis));
+    report[axis] = checked;
   }
   return report;
 }

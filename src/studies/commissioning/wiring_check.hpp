@@ -20,7 +20,7 @@ struct WiringCheckSettings {
   double ready_timeout = 2.0;   ///< from /S-ON to /S-RDY [s]
 };
 
-/// What is the matter with an axis.
+/// The state of an axis' wiring.
 enum class Finding {
   kSound,
   kReversed,   ///< moves against the command: closing the loop would make it run away
@@ -49,12 +49,13 @@ using WaitForPeriod = std::function<void()>;
 /// Moves one axis after the other by a few tenths of a millimetre, open loop, and compares what its
 /// encoder shows with what the settings say.
 ///
-/// Axis by axis: servo on (the other off), 0 V until ready and for `rest`, which shows the drift at
-/// 0 V; then +V and -V for `pulse` each, V = velocity / scale. Over the second half of each pulse
-/// the mean velocities v+ and v- give the scale
+/// For each axis the servo is switched on while that of the other axis is off. The command is 0 V
+/// until the drive is ready and for `rest` after that, which shows the drift. Then it is +V and -V
+/// for `pulse` each, with V = velocity / scale. The mean velocities v+ and v- over the second half
+/// of each pulse give the measured scale
 ///   (v+ - v-) / (2 V),
-/// free of the drive's offset. Below 10 % of the expected scale there is no motion; within 20 % of
-/// it the axis is sound.
+/// from which the drive's offset cancels. Below 10 % of the expected scale there is no motion;
+/// within 20 % of it the axis is sound.
 ///
 /// @param machine  unconfigured; left with 0 V, servo off, unconfigured
 /// @param period   time between two exchanges [s]

@@ -87,17 +87,14 @@ class Clock {
 
 Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
                                    const config::MachineFile& machine,
-                                   const std::optional<double>& feedrate, bool has_profiles) {
-  auto reader = gcode::Reader::open(program.string(), {.feedrate = feedrate});
-  if (!reader) {
-    return tl::unexpected(std::move(reader.error()));
-  }
-  BoundedPlan result{0.0, 0.0, {3, {}}, {3, {}}};
+                                   const std::optional<double>& feedrate, Profiles profiles) {
+  TWIN_TRY(gcode::Reader reader, gcode::Reader::open(program.string(), {.feedrate = feedrate}));
+  BoundedPlan result{.time_bound = 0.0, .planned = {3, {}}, .bound = {3, {}}};
   feedrate::TimeBound::Profile profile;
   double last_s = 0.0;
   double last_v = 0.0;
   double bound_t = 0.0;
-  if (has_profiles) {
+  if (profiles == Profiles::kRecorded) {
     profile = [&](double s, double v) {
       bound_t += s > last_s && v + last_v > 0.0 ? 2.0 * (s - last_s) / (v + last_v) : 0.0;
       add_row(result.bound, s, v, bound_t);
@@ -109,17 +106,13 @@ Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
                             profile);
   double s = 0.0;
   double t = 0.0;
-  auto figures = runtime::plan_program(*reader, machine, [&](feedrate::PlannedSegment&& planned) {
+  TWIN_CHECK(runtime::plan_program(reader, machine, [&](feedrate::PlannedSegment&& planned) {
     bound.add(planned);
-    if (has_profiles) {
+    if (profiles == Profiles::kRecorded) {
       add_segment(planned, s, t, result.planned);
     }
     return true;
-  });
-  if (!figures) {
-    return tl::unexpected(std::move(figures.error()));
-  }
-  result.deviation = figures->deviation;
+  }));
   result.time_bound = bound.finish();
   return result;
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "studies/compare/jobs.hpp"
+#include "studies/compare/planning_jobs.hpp"
 
 namespace twin::studies::compare {
 namespace {
@@ -19,7 +19,7 @@ struct Entry {
   std::string name() const { return is_paper() ? interpolator : planner; }
   std::vector<std::string> settings() const {
     return {fmt::format("planning.planner={}", planner),
-            fmt::format("interpolator.kind={}", interpolator)};
+            fmt::format("path.curves={}", interpolator)};
   }
 };
 
@@ -27,44 +27,33 @@ constexpr std::array<Entry, 4> kEntries{
     {{"paper", "nurbs"}, {"paper", "bezier"}, {"paper", "linear"}, {"certified", "nurbs"}}};
 
 /// Plans a job by itself, with its bound.
-Expected<void> add_plan_figures(const studies::Job& job, Contestant& contestant) {
-  const auto time = planning_time(job);
-  if (!time) {
-    return tl::unexpected(time.error());
-  }
-  auto plan = bounded_plan(job.program, job.machine, job.feedrate, true);
-  if (!plan) {
-    return tl::unexpected(std::move(plan.error()));
-  }
-  contestant.planning_time = *time;
-  contestant.plan = std::move(*plan);
+Expected<void> add_plan(const studies::Job& job, Contestant& contestant) {
+  TWIN_TRY(contestant.summary.planning_time, planning_time(job));
+  TWIN_TRY(contestant.plan,
+           bounded_plan(job.program, job.machine, job.feedrate, Profiles::kRecorded));
+  contestant.summary.time_bound = contestant.plan.time_bound;
   return {};
 }
 
 Expected<void> run_contestants(const Request& request, Comparison& result) {
   std::vector<studies::Job> jobs;
   for (const Entry& entry : kEntries) {
-    auto job = job_of(request, request.program, entry.name(), entry.settings());
-    if (!job) {
-      return tl::unexpected(std::move(job.error()));
-    }
-    job->directory = request.folder / ("run_" + entry.name());
-    jobs.push_back(std::move(*job));
+    TWIN_TRY(studies::Job job, job_of(request, request.program, entry.name(), entry.settings()));
+    job.directory = request.folder / ("run_" + entry.name());
+    jobs.push_back(std::move(job));
   }
-  auto summaries = studies::run_jobs(jobs, request.running);
-  if (!summaries) {
-    return tl::unexpected(std::move(summaries.error()));
-  }
+  TWIN_TRY(const std::vector<results::Summary> summaries, studies::run_jobs(jobs, request.running));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    Contestant contestant{
-        jobs[i].name, kEntries[i].planner, (*summaries)[i], jobs[i].directory, 0.0, {}};
-    if (auto added = add_plan_figures(jobs[i], contestant); !added) {
-      return added;
-    }
+    Contestant contestant{.name = jobs[i].name,
+                          .planner = kEntries[i].planner,
+                          .summary = summaries[i],
+                          .folder = jobs[i].directory,
+                          .plan = {}};
+    TWIN_CHECK(add_plan(jobs[i], contestant));
     result.contestants.push_back(std::move(contestant));
   }
   result.machine = jobs.front().machine.name;
-  result.hal = summaries->front().hal;
+  result.hal = summaries.front().hal;
   result.limits = jobs.front().machine.limits;
   result.period = jobs.front().machine.period;
   return {};
@@ -75,23 +64,21 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
                          std::vector<studies::Job>& jobs, std::vector<Fluctuation>& fluctuations) {
   for (const std::string rule : {"", "constant"}) {
     for (const std::string update : kUpdates) {
-      std::vector<std::string> settings{"planning.planner=paper", "interpolator.kind=nurbs",
+      std::vector<std::string> settings{"planning.planner=paper", "path.curves=nurbs",
                                         "interpolator.parameter_update=" + update};
       if (!rule.empty()) {
         settings.push_back("planning.feedrate_rule=" + rule);
       }
-      auto job = job_of(request, program, program.filename().string() + ", " + update, settings);
-      if (!job) {
-        return tl::unexpected(std::move(job.error()));
-      }
-      job->has_machine = false;
-      job->directory = request.folder / fmt::format("plan_{}", jobs.size());
-      fluctuations.push_back({program.filename().string(),
-                              rule.empty() ? "default" : rule,
-                              update,
-                              {},
-                              job->directory});
-      jobs.push_back(std::move(*job));
+      const std::string file = program.filename().string();
+      TWIN_TRY(studies::Job job, job_of(request, program, file + ", " + update, settings));
+      job.has_machine = false;
+      job.directory = request.folder / fmt::format("plan_{}", jobs.size());
+      fluctuations.push_back({.program = file,
+                              .feedrate_rule = rule.empty() ? "default" : rule,
+                              .parameter_update = update,
+                              .shares = {},
+                              .folder = job.directory});
+      jobs.push_back(std::move(job));
     }
   }
   return {};
@@ -104,16 +91,11 @@ Expected<void> plan_updates(const Request& request, Comparison& result) {
     programs.insert(programs.begin(), request.program);
   }
   for (const auto& program : programs) {
-    if (auto added = add_plans(request, program, jobs, result.fluctuations); !added) {
-      return added;
-    }
+    TWIN_CHECK(add_plans(request, program, jobs, result.fluctuations));
   }
-  auto summaries = studies::run_jobs(jobs, request.running);
-  if (!summaries) {
-    return tl::unexpected(std::move(summaries.error()));
-  }
+  TWIN_TRY(const std::vector<results::Summary> summaries, studies::run_jobs(jobs, request.running));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    result.fluctuations[i].shares = (*summaries)[i].feedrate_fluctuation;
+    result.fluctuations[i].shares = summaries[i].feedrate_fluctuation;
   }
   return {};
 }
@@ -123,12 +105,8 @@ Expected<void> plan_updates(const Request& request, Comparison& result) {
 Expected<Comparison> compare(const Request& request) {
   Comparison result;
   result.program = request.program.filename().string();
-  if (auto run = run_contestants(request, result); !run) {
-    return tl::unexpected(std::move(run.error()));
-  }
-  if (auto planned = plan_updates(request, result); !planned) {
-    return tl::unexpected(std::move(planned.error()));
-  }
+  TWIN_CHECK(run_contestants(request, result));
+  TWIN_CHECK(plan_updates(request, result));
   return result;
 }
 

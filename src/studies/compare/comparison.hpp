@@ -26,11 +26,10 @@ struct Request {
 
 /// One run: an interpolator under the paper's planner, or the certified planner.
 struct Contestant {
-  std::string name;     ///< "nurbs", "bezier", "linear", "certified"
-  std::string planner;  ///< "paper", "certified"
-  results::Summary summary;
+  std::string name;              ///< "nurbs", "bezier", "linear", "certified"
+  std::string planner;           ///< "paper", "certified"
+  results::Summary summary;      ///< with planning time and bound
   std::filesystem::path folder;  ///< with its trace.csv
-  double planning_time = 0.0;    ///< of planning alone, read to planned segment, wall clock [s]
   BoundedPlan plan;              ///< with profiles
 };
 
@@ -42,7 +41,7 @@ struct Fluctuation {
   std::string program;           ///< file name
   std::string feedrate_rule;     ///< "constant", or that of the machine file
   std::string parameter_update;  ///< "taylor1", "taylor2", "rk4", "corrected"
-  results::ShareFigures shares;
+  results::ShareStats shares;
   std::filesystem::path folder;  ///< with the trace.csv of the plan
 };
 

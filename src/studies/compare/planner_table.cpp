@@ -2,63 +2,35 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-#include <nlohmann/json.hpp>
+#include <array>
+#include <string_view>
 #include <utility>
 
-#include "core/rounded.hpp"
-#include "core/units.hpp"
-#include "studies/compare/jobs.hpp"
+#include "core/json.hpp"
+#include "results/quantities.hpp"
+#include "studies/compare/planning_jobs.hpp"
 #include "studies/compare/verdict.hpp"
 
 namespace twin::studies::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using units::um_from_mm;
-
-/// A column: its key, its heading in the table (none: only in the files), its value.
+/// A quantity of a plan, and its heading in the table; those without one are in the files only, for
+/// a terminal is not wide enough for all.
 struct Column {
-  const char* key;
-  const char* head;
-  int decimals;
-  double (*get)(const PlannerRow& row);
+  std::string_view key;
+  const char* head = nullptr;
 };
 
-constexpr std::array<Column, 10> kColumns{{
-    {"path_length_mm", "path mm", 1, [](const PlannerRow& r) { return r.summary.path_length; }},
-    {"planned_time_s", "time s", 3, [](const PlannerRow& r) { return r.summary.planned_time; }},
-    {"time_bound_s", "bound s", 3, [](const PlannerRow& r) { return r.time_bound; }},
-    {"bound_ratio", "ratio", 4,
-     [](const PlannerRow& r) { return r.summary.planned_time / r.time_bound; }},
-    {"certified_deviation_um", "certified um", 2,
-     [](const PlannerRow& r) { return um_from_mm(r.deviation); }},
-    {"command_contour_error_max_um", "measured um", 2,
-     [](const PlannerRow& r) { return um_from_mm(r.summary.command_contour_error.max); }},
-    {"command_contour_error_rms_um", "", 2,
-     [](const PlannerRow& r) { return um_from_mm(r.summary.command_contour_error.rms); }},
-    {"feedrate_fluctuation_max_percent", "", 4,
-     [](const PlannerRow& r) { return 100.0 * r.summary.feedrate_fluctuation.max; }},
-    {"blocks_per_segment", "blocks/ segment", 2,
-     [](const PlannerRow& r) {
-       return static_cast<double>(r.summary.blocks.total) /
-              static_cast<double>(std::max<std::int64_t>(r.summary.segments.total, 1));
-     }},
-    {"planning_time_per_block_us", "us/block", 2,
-     [](const PlannerRow& r) {
-       return 1e6 * r.planning_time /
-              static_cast<double>(std::max<std::int64_t>(r.summary.blocks.total, 1));
-     }},
-}};
-
-/// Those of the table, few enough for a terminal.
-std::vector<Column> shown_columns() {
-  std::vector<Column> shown;
-  std::copy_if(kColumns.begin(), kColumns.end(), std::back_inserter(shown),
-               [](const Column& column) { return *column.head != '\0'; });
-  return shown;
-}
+constexpr std::array<Column, 10> kColumns{{{"path_length_mm", "path mm"},
+                                           {"planned_time_s", "time s"},
+                                           {"time_bound_s", "bound s"},
+                                           {"bound_ratio", "ratio"},
+                                           {"certified_deviation_um", "certified um"},
+                                           {"command_contour_error_max_um", "measured um"},
+                                           {"command_contour_error_rms_um"},
+                                           {"feedrate_fluctuation_max_percent"},
+                                           {"blocks_per_segment", "blocks/ segment"},
+                                           {"planning_time_per_block_us", "us/block"}}};
 
 std::string csv_text(const std::vector<PlannerRow>& rows) {
   std::string text = "program,planner";
@@ -69,7 +41,8 @@ std::string csv_text(const std::vector<PlannerRow>& rows) {
   for (const PlannerRow& row : rows) {
     text += fmt::format("\"{}\",{}", row.program, row.planner);
     for (const Column& column : kColumns) {
-      text += fmt::format(",{:.6g}", column.get(row));
+      const auto value = results::quantity(column.key).get(row.summary);
+      text += value ? fmt::format(",{:.6g}", *value) : ",";
     }
     text += "," + row.verdict + "\n";
   }
@@ -81,24 +54,21 @@ std::string json_text(const std::vector<PlannerRow>& rows) {
   for (const PlannerRow& row : rows) {
     Json entry{{"program", row.program}, {"planner", row.planner}};
     for (const Column& column : kColumns) {
-      entry[column.key] = rounded(column.get(row));
+      entry[std::string(column.key)] =
+          rounded_or_null(results::quantity(column.key).get(row.summary));
     }
     entry["audit"] = row.verdict;
     json.push_back(std::move(entry));
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return to_text(json);
 }
 
 /// Adds what a plan by itself gives to a row.
 Expected<void> complete(const studies::Job& job, PlannerRow& row) {
-  const auto time = planning_time(job);
-  const auto plan = bounded_plan(job.program, job.machine, job.feedrate, false);
-  if (!time || !plan) {
-    return tl::unexpected(!time ? time.error() : plan.error());
-  }
-  row.planning_time = *time;
-  row.time_bound = plan->time_bound;
-  row.deviation = plan->deviation;
+  TWIN_TRY(row.summary.planning_time, planning_time(job));
+  TWIN_TRY(const BoundedPlan plan,
+           bounded_plan(job.program, job.machine, job.feedrate, Profiles::kLeftOut));
+  row.summary.time_bound = plan.time_bound;
   row.verdict = audit_verdict(row.summary.audit, job.machine.limits);
   return {};
 }
@@ -112,26 +82,19 @@ Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
   for (const auto& program : programs) {
     const std::string file = program.filename().string();
     for (const std::string planner : kPlanners) {
-      auto job = job_of(request, program, file + ", " + planner, {"planning.planner=" + planner});
-      if (!job) {
-        return tl::unexpected(std::move(job.error()));
-      }
-      job->has_machine = false;
-      job->keeps_results = false;
-      job->directory = request.folder / fmt::format("plan_{}", jobs.size());
-      jobs.push_back(std::move(*job));
-      rows.push_back({file, planner, {}, 0.0, 0.0, 0.0, {}});
+      TWIN_TRY(studies::Job job,
+               job_of(request, program, file + ", " + planner, {"planning.planner=" + planner}));
+      job.has_machine = false;
+      job.keeps_results = false;
+      job.directory = request.folder / fmt::format("plan_{}", jobs.size());
+      jobs.push_back(std::move(job));
+      rows.push_back({.program = file, .planner = planner, .summary = {}, .verdict = {}});
     }
   }
-  auto summaries = studies::run_jobs(jobs, request.running);
-  if (!summaries) {
-    return tl::unexpected(std::move(summaries.error()));
-  }
+  TWIN_TRY(std::vector<results::Summary> summaries, studies::run_jobs(jobs, request.running));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    rows[i].summary = (*summaries)[i];
-    if (auto done = complete(jobs[i], rows[i]); !done) {
-      return tl::unexpected(std::move(done.error()));
-    }
+    rows[i].summary = std::move(summaries[i]);
+    TWIN_CHECK(complete(jobs[i], rows[i]));
   }
   return rows;
 }
@@ -139,22 +102,25 @@ Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
 TextTable grid_of_planners(const std::vector<PlannerRow>& rows) {
   TextTable grid;
   grid.title = "Planners, and the lower bound of the time of the path of each";
-  for (const Column& column : shown_columns()) {
-    grid.head.emplace_back(column.head);
+  for (const Column& column : kColumns) {
+    if (column.head != nullptr) {
+      grid.head.emplace_back(column.head);
+    }
   }
   grid.head.emplace_back("audit");
   std::string shown;
   for (const PlannerRow& row : rows) {
-    Line line{row.program == shown ? "" : std::filesystem::path(row.program).stem().string(),
-              row.planner,
-              {},
-              {}};
+    const bool is_first = row.program != shown;
+    Line line{.row = is_first ? std::filesystem::path(row.program).stem().string() : "",
+              .what = row.planner,
+              .cells = {},
+              .note = {}};
     shown = row.program;
-    for (const Column& column : shown_columns()) {
-      const double value = column.get(row);
-      const bool is_absent =
-          row.deviation == 0.0 && std::string_view(column.key) == "certified_deviation_um";
-      line.cells.push_back({is_absent ? "-" : fmt::format("{:.{}f}", value, column.decimals)});
+    for (const Column& column : kColumns) {
+      const results::Quantity& q = results::quantity(column.key);
+      if (column.head != nullptr) {
+        line.cells.push_back({q.text(q.get(row.summary))});
+      }
     }
     line.cells.push_back({row.verdict});
     grid.lines.push_back(std::move(line));
@@ -164,14 +130,11 @@ TextTable grid_of_planners(const std::vector<PlannerRow>& rows) {
 
 Expected<void> write_planner_table(const std::vector<PlannerRow>& rows,
                                    const pictures::Workshop& workshop) {
-  const std::pair<const char*, std::string> texts[] = {
+  const pictures::NamedText texts[] = {
       {"planners.csv", csv_text(rows)},
       {"planners.json", json_text(rows)},
       {"planners.md", "# Planners compared\n\n" + to_markdown(grid_of_planners(rows))}};
-  std::vector<std::string> names;
-  if (auto written = workshop.write(texts, names); !written) {
-    return written;
-  }
+  TWIN_TRY(const std::vector<std::string> names, workshop.write(texts));
   return workshop.deliver(names);
 }
 

@@ -15,13 +15,10 @@ inline constexpr std::array<const char*, 2> kPlanners{"paper", "certified"};
 
 /// One program under one planner; nothing moves.
 struct PlannerRow {
-  std::string program;  ///< file name
-  std::string planner;  ///< "paper", "certified"
-  results::Summary summary;
-  double time_bound = 0.0;     ///< of its path [s]
-  double deviation = 0.0;      ///< certified; 0: none [mm]
-  double planning_time = 0.0;  ///< read to planned segment, wall clock [s]
-  std::string verdict;         ///< of the audit
+  std::string program;       ///< file name
+  std::string planner;       ///< "paper", "certified"
+  results::Summary summary;  ///< with planning time and bound
+  std::string verdict;       ///< of the audit
 };
 
 /// Plans each program with each planner.

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "studies/convert/number.hpp"
+#include "studies/convert/coordinate_text.hpp"
 
 namespace twin::studies::convert {
 namespace {

@@ -4,7 +4,9 @@
 
 #include <memory>
 #include <string_view>
+#include <utility>
 
+#include "core/text_table.hpp"
 #include "core/units.hpp"
 #include "studies/convert/dialect.hpp"
 
@@ -65,14 +67,20 @@ std::string to_table(const Job& job, const std::string& dialect, const CheckedCo
   for (const Group& group : c.groups) {
     made += group.made;
   }
-  std::string text = fmt::format("{} for {}\n\n", job.program.filename().string(),
-                                 make_dialect(dialect)->control());
-  text += fmt::format("  {:<26}{:>12}{:>12}\n", "", "before", "after");
-  text += fmt::format("  {:<26}{:>12}{:>12}\n", "lines of text", c.lines_before, c.lines);
-  text += fmt::format("  {:<26}{:>12}{:>12}\n", "blocks", c.blocks, made);
-  text +=
-      fmt::format("  {:<26}{:>12}{:>12}\n", "of them in curves", c.fitted_blocks, c.nurbs.blocks);
-  text += fmt::format("  {:<26}{:>12}{:>12}\n", "control points", "", c.nurbs.control_points);
+  const auto line = [](const char* name, std::string before, std::string after) {
+    return Line{
+        .row = name, .what = {}, .cells = {{std::move(before)}, {std::move(after)}}, .note = {}};
+  };
+  TextTable table;
+  table.head = {"before", "after"};
+  table.lines = {
+      line("lines of text", fmt::to_string(c.lines_before), fmt::to_string(c.lines)),
+      line("blocks", fmt::to_string(c.blocks), fmt::to_string(made)),
+      line("of them in curves", fmt::to_string(c.fitted_blocks), fmt::to_string(c.nurbs.blocks)),
+      line("control points", "", fmt::to_string(c.nurbs.control_points))};
+  std::string text = fmt::format("{} for {}\n\n{}", job.program.filename().string(),
+                                 make_dialect(dialect)->control(),
+                                 to_text(table, {.indent = 2, .row_width = 27, .cell_width = 10}));
   if (dialect == "g5.2" && c.nurbs.blocks > 0) {
     text +=
         fmt::format("  curves: {} on new uniform knots, {} as {} exact pieces\n", c.nurbs.refitted,

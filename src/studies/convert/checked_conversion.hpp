@@ -7,8 +7,8 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "gcode/reader.hpp"
-#include "studies/convert/comparison.hpp"
 #include "studies/convert/converter.hpp"
+#include "studies/convert/program_deviation.hpp"
 
 namespace twin::studies::convert {
 

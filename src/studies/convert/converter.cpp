@@ -108,15 +108,12 @@ Expected<Conversion> convert_program(gcode::Reader& reader, const Vec3& start,
   path::PathBuilder builder(settings, planning, limits,
                             [&](path::Segment&& segment) { converter.take(segment); });
   for (;;) {
-    auto block = reader.next();
-    if (!block) {
-      return tl::unexpected(block.error());
-    }
-    if (!block->has_value()) {
+    TWIN_TRY(auto block, reader.next());
+    if (!block.has_value()) {
       break;
     }
-    converter.expect(**block);
-    builder.push(**block);
+    converter.expect(*block);
+    builder.push(*block);
     if (converter.error()) {
       break;
     }

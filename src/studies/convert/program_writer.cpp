@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/units.hpp"
-#include "studies/convert/number.hpp"
+#include "studies/convert/coordinate_text.hpp"
 
 namespace twin::studies::convert {
 namespace {
@@ -68,7 +68,7 @@ std::int64_t ProgramWriter::write(const gcode::Block& block) {
 }
 
 std::int64_t ProgramWriter::write_arc(const gcode::Block& block) {
-  const gcode::ArcGeometry& arc = block.arc;
+  const geometry::Arc& arc = block.arc;
   const Vec3 axis = arc.e1.cross(arc.e2);
   const PlaneWords& plane = plane_of(axis);
   const Vec3 end = in_file(block.end);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -21,9 +22,16 @@ struct FitOptions {
   std::vector<std::string> freed;  ///< keys that are fitted though they would be held
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double)> progress;  ///< gets the done share, 0 to 1
+
+  bool is_fixed(const std::string& key) const {
+    return std::find(fixed.begin(), fixed.end(), key) != fixed.end();
+  }
+  bool is_freed(const std::string& key) const {
+    return std::find(freed.begin(), freed.end(), key) != freed.end();
+  }
 };
 
-/// How a parameter came to its value.
+/// Where the value of a parameter comes from.
 enum class Verdict {
   kIdentified,    ///< fitted; the data show it
   kMeasured,      ///< read off the data directly
@@ -38,8 +46,9 @@ struct FittedParameter {
   std::string name;
   double start = 0.0;  ///< in the key's unit
   double value = 0.0;  ///< in the key's unit
-  double sigma = 0.0;  ///< standard deviation, in the key's unit; of an unidentified one, what it
-                       ///< would have been
+  /// Standard deviation, in the key's unit. For an unidentified parameter it is the one that a fit
+  /// would have had.
+  double sigma = 0.0;
   double relative = 0.0;  ///< sigma over the value, or over its natural size
   Verdict verdict = Verdict::kIdentified;
   std::string why;  ///< of an unidentified one

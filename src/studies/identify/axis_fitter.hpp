@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,15 +16,17 @@ class AxisFitter {
   AxisFit run();
 
  private:
-  bool has_volts() const { return problem_.records().front().has_volts(); }
-  bool is_fixed(const std::string& key) const {
-    return std::ranges::find(options_.fixed, key) != options_.fixed.end();
-  }
-  bool is_freed(const std::string& key) const {
-    return std::ranges::find(options_.freed, key) != options_.freed.end();
-  }
+  /// A parameter that a search may fit.
+  struct Searched {
+    Candidate candidate;
+    FittedParameter result;
+    bool is_held = false;  ///< keeps its value in every search
+  };
+  using Indices = std::vector<std::size_t>;  // into searched_
+
+  bool has_volts() const { return problem_.has_volts(); }
+  bool is_free(const std::string& name) const;
   void estimate_directly();
-  void estimate_quantum();
   void estimate_gains();
   void estimate_hum();
   void align();
@@ -33,23 +34,23 @@ class AxisFitter {
   void search_further(const config::MachineFile& begin);
   void polish(int iterations, int least_rank = 0);
   void judge_and_hold();
-  bool take(const std::vector<std::size_t>& places, const Judgement& judgement);
-  std::vector<std::size_t> free_places() const;
-  ParameterSet set_of(const std::vector<std::size_t>& places) const;
+  bool note(const Indices& judged, const Judgement& judgement);
+  Indices free_indices() const;
+  ParameterSet set_of(const Indices& indices) const;
   Eigen::VectorXd residuals(const ParameterSet& set, const Eigen::VectorXd& units) const;
-  void hold(std::size_t place, Verdict verdict, double sigma, double relative, std::string why);
+  void hold(Searched& parameter, Verdict verdict, double sigma, double relative, std::string why);
   void report(double share) const;
-  FittedParameter& result(const std::string& key, const std::string& name);
   void doubt_hum_without_amplitude();
   double rms_of(const config::MachineFile& machine);
+  AxisFit finish();
 
   AxisProblem problem_;
   FitOptions options_;
   config::MachineFile start_;
   config::MachineFile current_;
-  std::vector<Candidate> candidates_;
-  std::vector<FittedParameter> results_;  // one for each candidate, then what is measured directly
-  std::vector<bool> is_held_;
+  std::vector<Searched> searched_;
+  FittedParameter count_;               // of the encoder
+  std::vector<FittedParameter> gains_;  // of the servo, where the drive commands tell them
   AxisFit fit_;
 };
 

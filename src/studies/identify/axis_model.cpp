@@ -88,22 +88,19 @@ void AxisModel::settle(double position) noexcept {
   }
 }
 
-std::vector<AxisRow> simulate(const AxisSetup& setup, std::span<const motion::Reference> set_points,
-                              bool* has_failed) {
-  std::vector<AxisRow> rows;
+AxisRun simulate(const AxisSetup& setup, std::span<const motion::Reference> set_points) {
+  AxisRun run;
   if (set_points.empty()) {
-    return rows;
+    return run;
   }
-  rows.reserve(set_points.size());
+  run.rows.reserve(set_points.size());
   AxisModel model(setup, set_points.front().position);
   model.settle(set_points.front().position);
   for (const motion::Reference& set_point : set_points) {
-    rows.push_back(model.follow(set_point));
+    run.rows.push_back(model.follow(set_point));
   }
-  if (has_failed != nullptr) {
-    *has_failed = model.has_failed();
-  }
-  return rows;
+  run.has_failed = model.has_failed();
+  return run;
 }
 
 std::vector<motion::Reference> differentiate(std::span<const double> positions, double period) {

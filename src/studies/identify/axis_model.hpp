@@ -82,11 +82,14 @@ class AxisModel {
   bool has_failed_ = false;
 };
 
-/// A whole run of one axis: kSettleTime at the first set point, then one row per set point.
-///
-/// Rows of a run that became unstable stand still from then on; `has_failed`, where given, says so.
-std::vector<AxisRow> simulate(const AxisSetup& setup, std::span<const motion::Reference> set_points,
-                              bool* has_failed = nullptr);
+/// A whole run of one axis.
+struct AxisRun {
+  std::vector<AxisRow> rows;  ///< one for each set point
+  bool has_failed = false;    ///< the loop became unstable; the rows stand still from then on
+};
+
+/// Runs one axis: kSettleTime at the first set point, then along all of them.
+AxisRun simulate(const AxisSetup& setup, std::span<const motion::Reference> set_points);
 
 /// Positions with the velocity and acceleration of their central differences, for set points that
 /// were recorded as positions only.

@@ -21,18 +21,20 @@ struct AxisRecord {
   bool has_volts() const noexcept { return !volts.empty(); }
 };
 
-/// The axis as the simulation has it, driven as the recorded one was.
+/// The simulated axis, driven by the command that drove the recorded one.
 ///
-/// The measured position is what the recorded controller saw, whatever its quantisation, so its
-/// drive command is known: recorded, or V_k = servo(r_k, y_k) with the gains under test. This
-/// command drives the simulated drive and slide, open loop, and the residual is
+/// The drive command is known even where it was not recorded: the measured position is what the
+/// recorded controller saw, so the command is V_k = servo(r_k, y_k) with the gains under test. This
+/// command drives the simulated drive and slide in open loop. The residual is
 ///   rho = H (y - x),
-/// y measured and x simulated, not quantised. A loop closed in the simulation would jump by whole
-/// counts at other instants than the recorded one; this way the residual is a smooth function of
-/// the parameters, and with the true ones it is the rounding of the encoder alone. The drive's
-/// integral keeps x near the integral of the command, so rho shows the torque that the motion
-/// needed. H is a high-pass filter of kForgetting, for what the model does not have and what would
-/// add up in x.
+/// where y is the measured position and x the simulated one, which is not quantised.
+///
+/// A loop closed in the simulation would jump by whole counts at other instants than the recorded
+/// loop. In open loop the residual is a smooth function of the parameters, and with the true
+/// parameters it is the rounding of the encoder alone. The integral of the drive keeps x near the
+/// integral of the command, so that rho shows the torque which the motion needed. H is a high-pass
+/// filter with the time constant kForgetting; it forgets what the model lacks, which would add up
+/// in x.
 class AxisProblem {
  public:
   static constexpr double kForgetting = 0.5;  ///< time constant of H [s]
@@ -56,6 +58,7 @@ class AxisProblem {
   void set_base(const config::MachineFile& base) { base_ = base; }
   /// The records in use.
   std::span<const AxisRecord> records() const noexcept { return {records_.data(), used_}; }
+  bool has_volts() const { return records().front().has_volts(); }
   /// Uses the first records only; all at the beginning.
   void use(std::size_t count) noexcept;
   std::size_t total() const noexcept { return records_.size(); }

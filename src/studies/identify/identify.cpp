@@ -49,9 +49,10 @@ std::vector<AxisRecord> records_of(const std::vector<Recording>& recordings, hal
   return records;
 }
 
-ErrorFigures figures(const std::vector<motion::Reference>& command,
-                     const std::function<double(std::size_t)>& measured) {
-  ErrorFigures result;
+/// Statistics of set point less measured position.
+results::ErrorStats tracking_error(const std::vector<motion::Reference>& command,
+                                   const std::function<double(std::size_t)>& measured) {
+  results::ErrorStats result;
   double sum = 0.0;
   for (std::size_t k = 0; k < command.size(); ++k) {
     const double error = command[k].position - measured(k);
@@ -81,9 +82,10 @@ std::vector<Prediction> predict(const std::vector<Recording>& recordings,
     const auto command = differentiate(signals.command, recording->period);
     AxisSetup setup = axis_setup(machine, prediction.axis);
     setup.axis.travel = kFarTravel;
-    const std::vector<AxisRow> rows = simulate(setup, command);
-    prediction.measured = figures(command, [&](std::size_t k) { return signals.measured[k]; });
-    prediction.simulated = figures(command, [&](std::size_t k) { return rows[k].encoder; });
+    const std::vector<AxisRow> rows = simulate(setup, command).rows;
+    prediction.measured =
+        tracking_error(command, [&](std::size_t k) { return signals.measured[k]; });
+    prediction.simulated = tracking_error(command, [&](std::size_t k) { return rows[k].encoder; });
   });
   return result;
 }
@@ -126,9 +128,7 @@ class SharedProgress {
 
 Expected<Identification> identify(const std::vector<Recording>& recordings,
                                   const config::MachineFile& start, const FitOptions& options) {
-  if (auto fits = check_periods(recordings); !fits) {
-    return tl::unexpected(fits.error());
-  }
+  TWIN_CHECK(check_periods(recordings));
   Identification result;
   result.machine = start;
   result.machine.period = recordings.front().period;

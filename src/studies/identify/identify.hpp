@@ -7,23 +7,18 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "results/metrics/summary.hpp"
 #include "studies/identify/axis_fit.hpp"
 #include "studies/identify/recording.hpp"
 
 namespace twin::studies::identify {
 
-/// RMS and maximum of a tracking error [mm].
-struct ErrorFigures {
-  double rms = 0.0;
-  double max = 0.0;
-};
-
 /// Tracking error of one axis in one trace, measured and of the identified machine in closed loop.
 struct Prediction {
   std::string trace;
   hal::Axis axis = hal::kX;
-  ErrorFigures measured;
-  ErrorFigures simulated;
+  results::ErrorStats measured;
+  results::ErrorStats simulated;
 };
 
 /// What recordings say of a machine.

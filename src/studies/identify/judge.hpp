@@ -8,7 +8,7 @@
 
 namespace twin::studies::identify {
 
-/// Relative standard deviation from which on a parameter counts as not shown by the data.
+/// A parameter with a larger relative standard deviation counts as not shown by the data.
 inline constexpr double kMostRelative = 0.25;
 
 /// What the data say of one parameter.
@@ -30,11 +30,12 @@ struct JudgedCandidate {
 
 /// Tells identified from unidentified parameters at a least-squares fit.
 ///
-/// From the derivatives J at the fit and the residuals comes a covariance. While some parameter's
-/// relative standard deviation exceeds kMostRelative, one of these is held (its column of J
-/// dropped): the one of the lowest hold_rank. So of parameters that only show together, as the mass
-/// and all frictions that scale with it, one is held and the others are determined against it.
-/// The deviations reported include a doubt of 30 % of each held value, passed on to first order.
+/// The derivatives J at the fit and the residuals give a covariance. While the relative standard
+/// deviation of some parameters exceeds kMostRelative, the one of them with the lowest hold_rank is
+/// held, that is, its column of J is dropped. Some parameters show only together, as do the mass and
+/// all frictions that scale with it; one of these is held and the others are determined relative to
+/// it. The deviations that are reported include a doubt of 30 % of each held value, propagated to
+/// first order.
 /// @param block  rows within which residuals may be correlated
 Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals& residuals,
                 Eigen::Index block);

@@ -69,9 +69,7 @@ Expected<ParameterSet> ParameterSet::create(std::vector<Parameter> parameters) {
       return fail(ErrorCode::kUsage,
                   fmt::format("{} is not a single number and cannot be fitted", found->path()));
     }
-    if (auto fits = check_range(parameter, *found); !fits) {
-      return tl::unexpected(fits.error());
-    }
+    TWIN_CHECK(check_range(parameter, *found));
     const auto place = static_cast<std::size_t>(found - list.begin());
     if (std::ranges::find(set.bindings_, place) != set.bindings_.end()) {
       return fail(ErrorCode::kUsage, fmt::format("{} is named twice", found->path()));

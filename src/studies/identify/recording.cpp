@@ -15,6 +15,17 @@ constexpr double kUnevenShare = 0.02;         // of the period, by which a row m
 constexpr double kShortestPeriod = 0.125e-3;  // of an interpolator [s]
 constexpr double kLongestPeriod = 4e-3;       // [s]
 constexpr std::size_t kFewestRows = 200;
+constexpr double kLeastMotion = 0.02;     // an axis that moves less stands still [mm]
+constexpr double kSmallMotion = 1.0;      // a whole program of less may be in metres [mm]
+constexpr double kFastShare = 20.0;       // of the machine's limit, which no true command exceeds
+constexpr double kLeastLikeness = 0.9;    // correlation of command and measured
+constexpr double kMostScaleError = 0.05;  // of measured against command
+constexpr double kMostVolts = 15.0;       // beyond the converter's range [V]
+constexpr double kRougher = 5.0;          // than measured, a command seems to be the wrong one
+
+tl::unexpected<Error> about(const std::filesystem::path& file, std::string message, int line = 0) {
+  return tl::unexpected<Error>(Error{ErrorCode::kFile, std::move(message), file.string(), line, 0});
+}
 
 /// The signals that the file has, or the error that says what is missing.
 Expected<std::vector<std::size_t>> present_signals(const results::CsvReader& reader,
@@ -55,11 +66,10 @@ Expected<std::vector<std::size_t>> present_signals(const results::CsvReader& rea
     want(kXMeasured);
   }
   if (!missing.empty()) {
-    return tl::unexpected<Error>(
-        Error{ErrorCode::kFile,
-              fmt::format("no column {}; there are: {} (--columns says which is which)", missing,
-                          fmt::join(reader.header(), ",")),
-              file.string(), 1, 0});
+    return about(file,
+                 fmt::format("no column {}; there are: {} (--columns says which is which)", missing,
+                             fmt::join(reader.header(), ",")),
+                 1);
   }
   return present;
 }
@@ -78,10 +88,6 @@ std::vector<double>& signal_of(Recording& recording, std::vector<double>& time,
     default:
       return axis.volts;
   }
-}
-
-tl::unexpected<Error> about(const std::filesystem::path& file, std::string message, int line = 0) {
-  return tl::unexpected<Error>(Error{ErrorCode::kFile, std::move(message), file.string(), line, 0});
 }
 
 /// Refuses a distance between rows that no controller has, with the unit that may be meant.
@@ -111,9 +117,7 @@ Expected<double> period_of(const std::vector<double>& time, const std::filesyste
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
   const double median = *middle;
-  if (auto fits = check_period(median, file, column); !fits) {
-    return tl::unexpected(fits.error());
-  }
+  TWIN_CHECK(check_period(median, file, column));
   for (std::size_t k = 0; k < steps.size(); ++k) {
     if (std::abs(steps[k] - median) > kUnevenShare * median) {
       return about(file,
@@ -127,53 +131,190 @@ Expected<double> period_of(const std::vector<double>& time, const std::filesyste
   return std::round(period * 1e9) / 1e9;
 }
 
+struct Likeness {
+  double correlation = 0.0;
+  double slope = 0.0;  // of measured over command
+};
+
+Likeness likeness(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto n = static_cast<double>(a.size());
+  double mean_a = 0.0;
+  double mean_b = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    mean_a += a[k] / n;
+    mean_b += b[k] / n;
+  }
+  double aa = 0.0;
+  double ab = 0.0;
+  double bb = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    aa += (a[k] - mean_a) * (a[k] - mean_a);
+    ab += (a[k] - mean_a) * (b[k] - mean_b);
+    bb += (b[k] - mean_b) * (b[k] - mean_b);
+  }
+  return {aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0, aa > 0.0 ? ab / aa : 0.0};
+}
+
+double range(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax_element(values);
+  return *high - *low;
+}
+
+double peak_velocity(const std::vector<double>& positions, double period) {
+  double peak = 0.0;
+  for (std::size_t k = 1; k < positions.size(); ++k) {
+    peak = std::max(peak, std::abs(positions[k] - positions[k - 1]) / period);
+  }
+  return peak;
+}
+
+/// RMS second difference [mm].
+double roughness(const std::vector<double>& positions) {
+  double sum = 0.0;
+  for (std::size_t k = 2; k < positions.size(); ++k) {
+    const double second = positions[k] - 2.0 * positions[k - 1] + positions[k - 2];
+    sum += second * second;
+  }
+  return std::sqrt(sum / static_cast<double>(positions.size()));
+}
+
+/// The checks of one axis, with the names of its columns for the messages.
+struct AxisCheck {
+  const Recording& recording;
+  const AxisSignals& signals;
+  const Column* columns;  // command, measured, volts
+
+  tl::unexpected<Error> refuse(std::string message) const {
+    return about(recording.file, std::move(message));
+  }
+
+  Expected<void> units(const Limits& limits) const {
+    const double fastest = peak_velocity(signals.command, recording.period);
+    if (fastest > kFastShare * limits.feedrate) {
+      return refuse(
+          fmt::format("column {} moves at up to {:.4g} mm/s, {:.0f} times the machine's "
+                      "largest feedrate: is it in um ({}:um), or the time in ms?",
+                      columns[0].name, fastest, fastest / limits.feedrate, columns[0].name));
+    }
+    const double slope = likeness(signals.command, signals.measured).slope;
+    for (const double factor : {1000.0, -1000.0, 0.001, -0.001}) {
+      if (std::abs(slope / factor - 1.0) < 0.3) {
+        return refuse(
+            fmt::format("column {} moves {:.4g} times as far as column {}: their units "
+                        "differ; say which is in mm, um or m ({}:{})",
+                        columns[1].name, slope, columns[0].name, columns[1].name,
+                        std::abs(factor) > 1.0 ? "um" : "m"));
+      }
+    }
+    return {};
+  }
+
+  Expected<void> same_signal() const {
+    const Likeness like = likeness(signals.command, signals.measured);
+    if (std::abs(like.correlation) < kLeastLikeness) {
+      return refuse(
+          fmt::format("column {} does not follow column {} (correlation {:.2f}): is it "
+                      "the measured position of that axis?",
+                      columns[1].name, columns[0].name, like.correlation));
+    }
+    if (std::abs(like.slope - 1.0) > kMostScaleError) {
+      return refuse(fmt::format(
+          "column {} moves {:.3g} times as far as column {}{}", columns[1].name, like.slope,
+          columns[0].name,
+          like.slope < 0.0 ? ": its sign is turned round" : ": are both in the same unit?"));
+    }
+    return {};
+  }
+
+  Expected<void> volts() const {
+    if (signals.volts.empty()) {
+      return {};
+    }
+    const double most = std::max(std::abs(*std::ranges::min_element(signals.volts)),
+                                 std::abs(*std::ranges::max_element(signals.volts)));
+    if (most > kMostVolts) {
+      return refuse(fmt::format("column {} reaches {:.4g} V: is it in mV ({}:mV)?", columns[2].name,
+                                most, columns[2].name));
+    }
+    if (!(range(signals.volts) > 0.0)) {
+      return refuse(fmt::format("column {} never changes, though the axis moves", columns[2].name));
+    }
+    return {};
+  }
+};
+
+/// The checks of a recording that was read; sets has_moved.
+Expected<void> check_recording(Recording& recording, const ColumnMap& columns,
+                               const Limits& limits) {
+  double farthest = 0.0;
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    const AxisSignals& signals = recording.axis[axis];
+    const Column* const names = &columns[axis == hal::kX ? kXCommand : kYCommand];
+    if (!signals.is_recorded()) {
+      continue;
+    }
+    const double moved = std::max(range(signals.command), range(signals.measured));
+    farthest = std::max(farthest, moved);
+    recording.has_moved[axis] = moved >= kLeastMotion;
+    if (!recording.has_moved[axis]) {
+      recording.notes.push_back(fmt::format("{}: {} moves by {:.3g} mm only; not identified",
+                                            recording.file.filename().string(), names[0].name,
+                                            moved));
+      continue;
+    }
+    const AxisCheck check{recording, signals, names};
+    TWIN_CHECK(check.units(limits));
+    TWIN_CHECK(check.same_signal());
+    TWIN_CHECK(check.volts());
+    if (roughness(signals.command) > kRougher * roughness(signals.measured)) {
+      recording.notes.push_back(fmt::format("{}: {} is much rougher than {}; are they swapped?",
+                                            recording.file.filename().string(), names[0].name,
+                                            names[1].name));
+    }
+  }
+  if (farthest < kSmallMotion) {
+    const Column& column = columns[recording.axis[hal::kX].is_recorded() ? kXCommand : kYCommand];
+    return about(
+        recording.file,
+        farthest > 0.0
+            ? fmt::format("no axis moves by more than {:.3g} mm: is column {} in m ({}:m)?",
+                          farthest, column.name, column.name)
+            : "no axis moves");
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<Recording> read_recording(const std::filesystem::path& file, const ColumnMap& columns,
                                    const Limits& limits) {
-  auto reader = results::CsvReader::open(file);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
-  const auto signals = present_signals(*reader, columns, file);
-  if (!signals) {
-    return tl::unexpected(signals.error());
-  }
+  TWIN_TRY(results::CsvReader reader, results::CsvReader::open(file));
+  TWIN_TRY(const std::vector<std::size_t> signals, present_signals(reader, columns, file));
   std::vector<std::string_view> names;
-  for (const std::size_t signal : *signals) {
+  for (const std::size_t signal : signals) {
     if (std::ranges::find(names, columns[signal].name) != names.end()) {
       return about(file, fmt::format("column {} is named for two signals", columns[signal].name));
     }
     names.emplace_back(columns[signal].name);
   }
-  if (auto selected = reader->select(names); !selected) {
-    return tl::unexpected(selected.error());
-  }
+  TWIN_CHECK(reader.select(names));
   Recording recording;
   recording.file = file;
   std::vector<double> time;
   const auto take = [&](std::span<const double> row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::size_t signal = (*signals)[i];
+      const std::size_t signal = signals[i];
       signal_of(recording, time, signal).push_back(row[i] * columns[signal].to_base);
     }
   };
-  if (auto read = reader->for_each_row(take); !read) {
-    return tl::unexpected(read.error());
-  }
+  TWIN_CHECK(reader.for_each_row(take));
   recording.rows = time.size();
   if (time.size() < kFewestRows) {
     return about(file, fmt::format("{} rows are too few to identify anything; {} at least",
                                    time.size(), kFewestRows));
   }
-  const auto period = period_of(time, file, columns[kTime].name);
-  if (!period) {
-    return tl::unexpected(period.error());
-  }
-  recording.period = *period;
-  if (auto checked = check_recording(recording, columns, limits); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TWIN_TRY(recording.period, period_of(time, file, columns[kTime].name));
+  TWIN_CHECK(check_recording(recording, columns, limits));
   return recording;
 }
 

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "hal/signals.hpp"
-#include "studies/identify/columns.hpp"
+#include "studies/identify/recording_columns.hpp"
 
 namespace twin::studies::identify {
 
@@ -21,27 +21,24 @@ struct AxisSignals {
   bool is_recorded() const noexcept { return !command.empty(); }
 };
 
-/// A trace from any machine: even time, command and measured position, perhaps drive command.
+/// A trace from any machine. It has evenly spaced times, commanded and measured positions, and
+/// perhaps drive commands.
 struct Recording {
   std::filesystem::path file;
   double period = 0.0;  ///< time between rows [s]
   std::size_t rows = 0;
   std::array<AxisSignals, hal::kServoAxes> axis;
   std::array<bool, hal::kServoAxes> has_moved{};  ///< enough to be fitted
-  std::vector<std::string> notes;                 ///< what was noticed and let pass
+  std::vector<std::string> notes;                 ///< what looked odd and was accepted
 };
 
 /// Reads a recording and checks whether it can be what it claims to be.
 ///
-/// Refused, with the column: a missing column, what is no finite number, time that does not go on
-/// evenly, too few rows, a unit that is wrong by about 1000, and a measured position that does not
-/// follow the command.
+/// An error names the column. Refused are a missing column, a value that is no finite number, time
+/// that does not go on evenly, too few rows, a unit that is wrong by a factor of about 1000, and a
+/// measured position that does not follow the command.
 /// @param limits  of the machine, for what is plausible
 Expected<Recording> read_recording(const std::filesystem::path& file, const ColumnMap& columns,
                                    const Limits& limits);
-
-/// The checks of a recording that was read; sets has_moved.
-Expected<void> check_recording(Recording& recording, const ColumnMap& columns,
-                               const Limits& limits);
 
 }  // namespace twin::studies::identify

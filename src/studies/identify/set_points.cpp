@@ -32,19 +32,12 @@ Expected<std::vector<motion::SetPoint>> plan_set_points(const std::filesystem::p
                                                         std::optional<double> feedrate) {
   gcode::ReaderOptions options;
   options.feedrate = feedrate;
-  auto reader = gcode::Reader::open(program.string(), options);
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
+  TWIN_TRY(auto reader, gcode::Reader::open(program.string(), options));
   PlannedList list;
-  const auto figures =
-      runtime::plan_program(*reader, machine, [&](feedrate::PlannedSegment&& planned) {
-        list.push(std::move(planned));
-        return true;
-      });
-  if (!figures) {
-    return tl::unexpected(figures.error());
-  }
+  TWIN_CHECK(runtime::plan_program(reader, machine, [&](feedrate::PlannedSegment&& planned) {
+    list.push(std::move(planned));
+    return true;
+  }));
   motion::Interpolator interpolator(list, machine.period, machine.interpolation);
   std::vector<motion::SetPoint> points;
   motion::SetPoint point;

@@ -16,26 +16,17 @@ Expected<TableRun> TableRun::plan(const std::filesystem::path& program,
                                   std::optional<double> feedrate) {
   config::MachineFile published = machine;
   published.path.planner = Planner::kPaper;
-  const auto points = plan_set_points(program, published, feedrate);
-  if (!points) {
-    return tl::unexpected(points.error());
-  }
+  TWIN_TRY(const auto points, plan_set_points(program, published, feedrate));
   TableRun run;
-  auto reader = gcode::Reader::open(program.string());
-  if (!reader) {
-    return tl::unexpected(reader.error());
-  }
+  TWIN_TRY(auto reader, gcode::Reader::open(program.string()));
   for (;;) {
-    auto block = reader->next();
-    if (!block) {
-      return tl::unexpected(block.error());
-    }
-    if (!block->has_value()) {
+    TWIN_TRY(auto block, reader.next());
+    if (!block.has_value()) {
       break;
     }
-    run.blocks_.push_back(**block);
+    run.blocks_.push_back(*block);
   }
-  for (const motion::SetPoint& point : *points) {
+  for (const motion::SetPoint& point : points) {
     run.on_block_.push_back(point.block);
     run.positions_.push_back(point.position);
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
@@ -44,19 +35,19 @@ Expected<TableRun> TableRun::plan(const std::filesystem::path& program,
     }
   }
   run.machining_time_ =
-      points->empty() ? 0.0 : machine.period * static_cast<double>(points->size() - 1);
+      points.empty() ? 0.0 : machine.period * static_cast<double>(points.size() - 1);
   return run;
 }
 
 RunErrors TableRun::run(const config::MachineFile& machine) const {
   RunErrors errors;
-  std::array<std::vector<AxisRow>, 2> rows;
+  std::array<AxisRun, 2> runs;
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
-    bool has_failed = false;
-    rows[axis] = simulate(axis_setup(machine, axis), references_[axis], &has_failed);
+    runs[axis] = simulate(axis_setup(machine, axis), references_[axis]);
+    const bool has_failed = runs[axis].has_failed;
     results::Running error;
-    for (std::size_t k = 0; k < rows[axis].size(); ++k) {
-      error.add(std::abs(references_[axis][k].position - rows[axis][k].encoder));
+    for (std::size_t k = 0; k < runs[axis].rows.size(); ++k) {
+      error.add(std::abs(references_[axis][k].position - runs[axis].rows[k].encoder));
     }
     errors.axis_max[axis] = has_failed ? std::numeric_limits<double>::infinity() : error.max();
     errors.axis_rms[axis] = has_failed ? std::numeric_limits<double>::infinity() : error.rms();
@@ -75,7 +66,7 @@ RunErrors TableRun::run(const config::MachineFile& machine) const {
       tracker.add(blocks_[next++]);
     }
     tracker.follow(on_block_[k], positions_[k]);
-    contour.add(tracker.nearest({rows[0][k].encoder, rows[1][k].encoder, 0.0}).distance);
+    contour.add(tracker.nearest({runs[0].rows[k].encoder, runs[1].rows[k].encoder, 0.0}).distance);
   }
   errors.contour_max = contour.max();
   errors.contour_rms = contour.rms();

@@ -38,13 +38,13 @@ struct Options {
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1; one call at a time
 };
 
-/// Runs the jobs, as many at a time as there are cores, in lockstep, so that no figure depends on
-/// what runs beside it.
+/// Runs the jobs, as many at a time as there are cores. Each runs in lockstep, so that its results
+/// do not depend on what runs beside it.
 ///
-/// A failure ends the rest early: no job behind it is begun.
+/// After a failure no job behind the failed one is begun.
 ///
-/// @returns the summaries in the order of the jobs, or the error of the first in that order that
-/// fails, with its name; which one that is does not depend on what runs beside it
+/// @returns the summaries in the order of the jobs; or the error, with the job's name, of the first
+/// job in that order that fails, which does not depend on what runs beside it either
 Expected<std::vector<results::Summary>> run_jobs(std::span<const Job> jobs, const Options& options);
 
 }  // namespace twin::studies

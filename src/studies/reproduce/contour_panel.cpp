@@ -176,7 +176,7 @@ Panel feedrate_panel(const std::vector<Moment>& corners, const std::string& data
               fmt::format("'{}.csv' using 't_s':'feedrate_mm_per_s' with lines linestyle 1", data),
               270};
   panel.settings += fmt::format("  set xrange [{:.3f}:{:.3f}]\n", window.begin, window.end) +
-                    feedrate_axis(feedrate, true);
+                    feedrate_axis(feedrate, pictures::Letters::kBelow);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Moment& corner = corners[i];
     if (corner.t < window.begin || corner.t > window.end) {

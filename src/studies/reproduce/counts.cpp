@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/published_columns.hpp"
 
 namespace twin::studies::reproduce {
 
@@ -25,11 +25,11 @@ Counts count(const Variant& variant, Of of) {
     const auto columns = columns_of(row.table);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       ++counts.total;
-      const double figure = ours(answer, i, of);
+      const double value = ours(answer, i, of);
       for (std::size_t j = 0; j < kShares.size(); ++j) {
-        counts.within[j] += is_within(figure, row.figures[i], kShares[j]) ? 1 : 0;
+        counts.within[j] += is_within(value, row.values[i], kShares[j]) ? 1 : 0;
       }
-      const double off = figure / row.figures[i] - 1.0;
+      const double off = value / row.values[i] - 1.0;
       if (columns[i].key == "time_s" && std::abs(off) > std::abs(counts.worst_time)) {
         counts.worst_time = off;
       }
@@ -42,7 +42,7 @@ std::string missed(const Answer& answer, Of of) {
   std::string names;
   const auto columns = columns_of(answer.published.table);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (!is_within(ours(answer, i, of), answer.published.figures[i], kShares.back())) {
+    if (!is_within(ours(answer, i, of), answer.published.values[i], kShares.back())) {
       names += (names.empty() ? "" : ", ") + std::string(columns[i].name);
     }
   }

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "studies/reproduce/counts.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
-#include "studies/reproduce/files.hpp"
+#include "studies/reproduce/published_columns.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
 
 namespace twin::studies::reproduce {
 namespace {
 
 std::size_t column(int table, std::string_view key) {
   const auto columns = columns_of(table);
-  return static_cast<std::size_t>(std::ranges::find(columns, key, &FigureKind::key) -
+  return static_cast<std::size_t>(std::ranges::find(columns, key, &PublishedColumn::key) -
                                   columns.begin());
 }
 
@@ -35,7 +35,7 @@ Range ratios(const Variant& variant, const std::string& interpolator,
     }
     for (const std::string_view key : keys) {
       const std::size_t i = column(row.table, key);
-      const double ratio = ours(answer, i, Of::kMean) / row.figures[i];
+      const double ratio = ours(answer, i, Of::kMean) / row.values[i];
       range.low = std::min(range.low, ratio);
       range.high = std::max(range.high, ratio);
     }
@@ -52,9 +52,8 @@ std::string curves(const Reproduction& reproduction) {
   for (const Answer& answer : reproduction.defaults().answers) {
     if (answer.published.table == 3) {
       const std::size_t i = column(3, "blocks_after");
-      counts +=
-          fmt::format("{}{:.0f} curves for {} (paper: {:.0f})", counts.empty() ? "" : ", ",
-                      answer.single[i], answer.published.program, answer.published.figures[i]);
+      counts += fmt::format("{}{:.0f} curves for {} (paper: {:.0f})", counts.empty() ? "" : ", ",
+                            answer.single[i], answer.published.program, answer.published.values[i]);
     }
   }
   return counts.empty()
@@ -83,7 +82,7 @@ std::string rms(const Reproduction& reproduction) {
       ratios(reproduction.as_published(), "nurbs", {"contour_um.rms", "x_um.rms", "y_um.rms"});
   return fmt::format(
       "Drive, friction and servo values are fits to these tables, not measurements of the rig. "
-      "RMS figures hardly depend on the outline: {} of the published ones in the NURBS rows.",
+      "RMS errors hardly depend on the outline: {} of the published ones in the NURBS rows.",
       range.text());
 }
 
@@ -107,7 +106,7 @@ std::string unreached(const Reproduction& reproduction) {
       text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", answer.published.name(), names);
     }
   }
-  return text.empty() ? "No figure of Tables 4 and 5 is more than 30 % off as published."
+  return text.empty() ? "No number of Tables 4 and 5 is more than 30 % off as published."
                       : "Not reached (more than 30 % off, as published, mean): " + text + ".";
 }
 

@@ -41,14 +41,12 @@ Panel over_time(std::string caption, std::string y_label, const std::string& dat
 Expected<void> add_contour(Album& album, int number, const Answer& answer) {
   const std::string& program = answer.published.program;
   const std::string name = fmt::format("fig{}_{}", number, program);
-  const auto table = album.copy_data(
-      answer.folder / results::kTraceName, name,
-      std::array<std::string_view, 4>{"t_s", "x_cmd_mm", "y_cmd_mm", "feedrate_mm_per_s"});
-  if (!table) {
-    return tl::unexpected(table.error());
-  }
+  TWIN_TRY(const results::Table table,
+           album.copy_data(answer.folder / results::kTraceName, name,
+                           std::array<std::string_view, 4>{"t_s", "x_cmd_mm", "y_cmd_mm",
+                                                           "feedrate_mm_per_s"}));
   album.add(name, title_of(number, program, "contour, feedrate"),
-            contour_panels(*table, name, answer.published.feedrate_mm_per_min / 60.0));
+            contour_panels(table, name, answer.published.feedrate_mm_per_min / 60.0));
   return {};
 }
 
@@ -63,15 +61,12 @@ Expected<void> add_feedrates(Album& album, int number, const std::string& progra
       continue;
     }
     const std::string data = fmt::format("{}_{:.0f}", name, feedrate);
-    const auto table = album.copy_data(answer->folder / results::kTraceName, data,
-                                       std::array<std::string_view, 2>{"t_s", "feedrate_mm_per_s"});
-    if (!table) {
-      return tl::unexpected(table.error());
-    }
+    TWIN_CHECK(album.copy_data(answer->folder / results::kTraceName, data,
+                               std::array<std::string_view, 2>{"t_s", "feedrate_mm_per_s"}));
     panels.push_back(
         over_time(fmt::format("({}) {:.0f},000 mm/min", "abc"[panels.size()], feedrate / 1000.0),
                   kFeedrate, data, "feedrate_mm_per_s", 1, 230));
-    panels.back().settings = pictures::feedrate_axis(feedrate / 60.0, false);
+    panels.back().settings = pictures::feedrate_axis(feedrate / 60.0);
   }
   album.add(name, title_of(number, program, "feedrate profiles"), panels);
   return {};
@@ -81,22 +76,20 @@ Expected<void> add_feedrates(Album& album, int number, const std::string& progra
 Expected<void> add_errors(Album& album, int number, const Answer& answer) {
   const std::string& program = answer.published.program;
   const std::string name = fmt::format("fig{}_{}", number, program);
-  const auto table =
-      album.copy_data(answer.folder / results::kTraceName, name,
-                      std::array<std::string_view, 4>{
-                          "t_s", "contour_error_um", "x_tracking_error_um", "y_tracking_error_um"});
-  if (!table) {
-    return tl::unexpected(table.error());
-  }
+  TWIN_TRY(const results::Table table,
+           album.copy_data(
+               answer.folder / results::kTraceName, name,
+               std::array<std::string_view, 4>{"t_s", "contour_error_um", "x_tracking_error_um",
+                                               "y_tracking_error_um"}));
   std::vector<Panel> panels{over_time("(a) contour errors, NURBS at 3,000 mm/min",
                                       "contour error [µm]", name, "contour_error_um", 1, 270),
                             over_time("(b) tracking errors, X axis", "error of X [µm]", name,
                                       "x_tracking_error_um", 2, 250),
                             over_time("(b) tracking errors, Y axis", "error of Y [µm]", name,
                                       "y_tracking_error_um", 3, 250)};
-  const ValueRange x = range_of(*table, 2);
-  const ValueRange y = range_of(*table, 3);
-  panels[0].settings = pictures::y_axis(range_of(*table, 1));
+  const ValueRange x = range_of(table, 2);
+  const ValueRange y = range_of(table, 3);
+  panels[0].settings = pictures::y_axis(range_of(table, 1));
   panels[1].settings = pictures::y_axis({std::min(x.low, y.low), std::max(x.high, y.high)});
   panels[2].settings = panels[1].settings;
   album.add(name, title_of(number, program, "measured errors"), panels);
@@ -107,54 +100,44 @@ Expected<void> add_errors(Album& album, int number, const Answer& answer) {
 Expected<void> add_bezier(Album& album, int number, const Answer& answer) {
   const std::string& program = answer.published.program;
   const std::string name = fmt::format("fig{}_{}", number, program);
-  const auto table = album.copy_data(
-      answer.folder / results::kTraceName, name,
-      std::array<std::string_view, 3>{"t_s", "feedrate_mm_per_s", "contour_error_um"});
-  if (!table) {
-    return tl::unexpected(table.error());
-  }
+  TWIN_TRY(const results::Table table,
+           album.copy_data(
+               answer.folder / results::kTraceName, name,
+               std::array<std::string_view, 3>{"t_s", "feedrate_mm_per_s", "contour_error_um"}));
   std::vector<Panel> panels{
       over_time("(a) feedrate commands, 3,000 mm/min", kFeedrate, name, "feedrate_mm_per_s", 1,
                 270),
       over_time("(b) contour errors", "contour error [µm]", name, "contour_error_um", 1, 270)};
-  panels[0].settings = pictures::feedrate_axis(answer.published.feedrate_mm_per_min / 60.0, false);
-  panels[1].settings = pictures::y_axis(range_of(*table, 2));
+  panels[0].settings = pictures::feedrate_axis(answer.published.feedrate_mm_per_min / 60.0);
+  panels[1].settings = pictures::y_axis(range_of(table, 2));
   album.add(name, title_of(number, program, "Fast Bezier"), panels);
   return {};
 }
 
 Expected<void> add_program(Album& album, const Variant& variant, const std::string& program,
                            int first) {
-  Expected<void> result;
   const Answer* nurbs = find_answer(variant, program, "nurbs", 3000.0);
   const Answer* bezier = find_answer(variant, program, "bezier", 3000.0);
   if (nurbs != nullptr) {
-    result = add_contour(album, first, *nurbs)
-                 .and_then([&] { return add_feedrates(album, first + 2, program, variant); })
-                 .and_then([&] { return add_errors(album, first + 4, *nurbs); });
+    TWIN_CHECK(add_contour(album, first, *nurbs));
+    TWIN_CHECK(add_feedrates(album, first + 2, program, variant));
+    TWIN_CHECK(add_errors(album, first + 4, *nurbs));
   }
-  if (result && bezier != nullptr) {
-    result = add_bezier(album, first + 6, *bezier);
+  if (bezier != nullptr) {
+    TWIN_CHECK(add_bezier(album, first + 6, *bezier));
   }
-  return result;
+  return {};
 }
 
 }  // namespace
 
 Expected<std::vector<pictures::Picture>> draw_figures(const Reproduction& reproduction,
                                                       const std::filesystem::path& folder) {
-  auto album = Album::open(folder);
-  if (!album) {
-    return tl::unexpected(std::move(album.error()));
-  }
+  TWIN_TRY(Album album, Album::open(folder));
   const Variant& variant = reproduction.as_published();
-  auto added = add_program(*album, variant, "oxalis", 12).and_then([&] {
-    return add_program(*album, variant, "dolphin", 13);
-  });
-  if (!added) {
-    return tl::unexpected(std::move(added.error()));
-  }
-  return album->draw();
+  TWIN_CHECK(add_program(album, variant, "oxalis", 12));
+  TWIN_CHECK(add_program(album, variant, "dolphin", 13));
+  return album.draw();
 }
 
 }  // namespace twin::studies::reproduce

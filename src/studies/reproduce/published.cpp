@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "config/toml_value.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/published_columns.hpp"
 
 namespace twin::studies::reproduce {
 
@@ -37,12 +37,12 @@ Expected<PublishedRow> read_row(const toml::table& source) {
       row.settings.push_back(setting.value_or(std::string()));
     }
   }
-  for (const FigureKind& kind : columns_of(row.table)) {
-    const auto value = source.at_path(kind.key).value<double>();
+  for (const PublishedColumn& column : columns_of(row.table)) {
+    const auto value = source.at_path(column.key).value<double>();
     if (!value || !std::isfinite(*value)) {
-      return complaint(source, fmt::format("this row has no number {}", kind.key));
+      return complaint(source, fmt::format("this row has no number {}", column.key));
     }
-    row.figures.push_back(*value);
+    row.values.push_back(*value);
   }
   return row;
 }
@@ -65,25 +65,19 @@ std::string PublishedRow::short_name() const {
 std::string PublishedRow::name() const { return program + ", " + short_name() + " mm/min"; }
 
 Expected<Published> parse_published(std::string_view toml) {
-  auto root = config::parse_toml(toml, kFile);
-  if (!root) {
-    return tl::unexpected(std::move(root.error()));
-  }
+  TWIN_TRY(const toml::table root, config::parse_toml(toml, kFile));
   Published result;
-  result.source = (*root)["source"].value_or(std::string());
-  const toml::array* rows = (*root)["row"].as_array();
+  result.source = root["source"].value_or(std::string());
+  const toml::array* rows = root["row"].as_array();
   if (result.source.empty() || rows == nullptr) {
-    return complaint(*root, "a source and rows are needed");
+    return complaint(root, "a source and rows are needed");
   }
   for (const toml::node& node : *rows) {
     if (!node.is_table()) {
       return complaint(node, "is not a row");
     }
-    auto row = read_row(*node.as_table());
-    if (!row) {
-      return tl::unexpected(std::move(row.error()));
-    }
-    result.rows.push_back(std::move(*row));
+    TWIN_TRY(PublishedRow row, read_row(*node.as_table()));
+    result.rows.push_back(std::move(row));
   }
   return result;
 }

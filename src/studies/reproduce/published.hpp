@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-/// The tables and figures of Wang and Yau's paper beside ours.
+/// The tables and pictures of Wang and Yau's paper beside ours.
 namespace twin::studies::reproduce {
 
 /// One row of a published table, and the run that answers it.
@@ -16,7 +16,7 @@ struct PublishedRow {
   std::string interpolator;           ///< "nurbs", "bezier"
   double feedrate_mm_per_min = 0.0;   ///< programmed
   std::vector<std::string> settings;  ///< section.key=value: the paper's variants for this row
-  std::vector<double> figures;        ///< in the order of columns_of(table), in their units
+  std::vector<double> values;         ///< in the order of columns_of(table), in their units
 
   /// "NURBS 3,000", without the program.
   std::string short_name() const;

@@ -10,8 +10,8 @@
 
 #include "config/find_file.hpp"
 #include "core/units.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
 #include "studies/reproduce/phases.hpp"
+#include "studies/reproduce/published_columns.hpp"
 
 namespace twin::studies::reproduce {
 namespace {
@@ -21,37 +21,34 @@ class Plan {
  public:
   explicit Plan(const Request& request) : request_(request) {}
 
-  /// The place of a row's single run among the jobs; its repeats follow it.
+  /// Index of a row's single run among the jobs; its repeats follow it.
   Expected<std::size_t> add(const PublishedRow& row, const std::vector<std::string>& settings) {
     std::vector<std::string> all = request_.settings;
     all.emplace_back("planning.planner=paper");
-    all.push_back("interpolator.kind=" + row.interpolator);
+    all.push_back("path.curves=" + row.interpolator);
     all.insert(all.end(), settings.begin(), settings.end());
     const std::string key =
         fmt::format("{} {}", row.name(), fmt::join(settings.begin(), settings.end(), " "));
-    if (const auto known = places_.find(key); known != places_.end()) {
+    if (const auto known = first_jobs_.find(key); known != first_jobs_.end()) {
       return known->second;
     }
-    auto machine = config::read_machine_file(request_.machine_file, all);
-    if (!machine) {
-      return tl::unexpected(std::move(machine.error()));
-    }
-    auto program = config::find_program(row.program + ".nc");
-    if (!program) {
-      return tl::unexpected(std::move(program.error()));
-    }
-    const std::size_t place = jobs_.size();
-    studies::Job job{row.name(), *program, *machine,
-                     units::mm_per_s_from_mm_per_min(row.feedrate_mm_per_min),
-                     request_.folder / fmt::format("run_{}", place)};
+    TWIN_TRY(const config::MachineFile machine,
+             config::read_machine_file(request_.machine_file, all));
+    TWIN_TRY(const std::filesystem::path program, config::find_program(row.program + ".nc"));
+    const std::size_t first = jobs_.size();
+    studies::Job job{.name = row.name(),
+                     .program = program,
+                     .machine = machine,
+                     .feedrate = units::mm_per_s_from_mm_per_min(row.feedrate_mm_per_min),
+                     .directory = request_.folder / fmt::format("run_{}", first)};
     jobs_.push_back(job);
     job.keeps_results = false;
     for (int repeat = 1; repeat <= request_.repeats; ++repeat) {
-      job.machine.table = with_phases_of_repeat(machine->table, repeat);
-      job.directory = request_.folder / fmt::format("run_{}_{}", place, repeat);
+      job.machine.table = with_phases_of_repeat(machine.table, repeat);
+      job.directory = request_.folder / fmt::format("run_{}_{}", first, repeat);
       jobs_.push_back(job);
     }
-    return places_[key] = place;
+    return first_jobs_[key] = first;
   }
 
   const std::vector<studies::Job>& jobs() const noexcept { return jobs_; }
@@ -59,16 +56,16 @@ class Plan {
  private:
   const Request& request_;
   std::vector<studies::Job> jobs_;
-  std::map<std::string, std::size_t> places_;
+  std::map<std::string, std::size_t> first_jobs_;  // by row and settings
 };
 
-std::vector<double> figures_of(int table, const results::Summary& summary,
-                               const config::MachineFile& machine) {
-  std::vector<double> figures;
-  for (const FigureKind& kind : columns_of(table)) {
-    figures.push_back(kind.ours(summary, machine));
+std::vector<double> values_of(int table, const results::Summary& summary,
+                              const config::MachineFile& machine) {
+  std::vector<double> values;
+  for (const PublishedColumn& column : columns_of(table)) {
+    values.push_back(column.ours(summary, machine));
   }
-  return figures;
+  return values;
 }
 
 std::vector<Spread> spreads_of(const std::vector<std::vector<double>>& runs) {
@@ -92,16 +89,16 @@ std::vector<Spread> spreads_of(const std::vector<std::vector<double>>& runs) {
 
 Answer answer(const PublishedRow& row, const Request& request,
               const std::vector<studies::Job>& jobs, const std::vector<results::Summary>& summaries,
-              std::size_t place) {
+              std::size_t first) {
   Answer answer;
   answer.published = row;
-  answer.summary = summaries[place];
-  answer.machine = jobs[place].machine;
-  answer.folder = jobs[place].directory;
-  answer.single = figures_of(row.table, answer.summary, answer.machine);
+  answer.summary = summaries[first];
+  answer.machine = jobs[first].machine;
+  answer.folder = jobs[first].directory;
+  answer.single = values_of(row.table, answer.summary, answer.machine);
   std::vector<std::vector<double>> runs;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(request.repeats); ++i) {
-    runs.push_back(figures_of(row.table, summaries[place + i], jobs[place + i].machine));
+    runs.push_back(values_of(row.table, summaries[first + i], jobs[first + i].machine));
   }
   answer.repeats = spreads_of(runs);
   return answer;
@@ -112,20 +109,16 @@ Answer answer(const PublishedRow& row, const Request& request,
 Expected<Reproduction> reproduce(const Request& request) {
   Plan plan(request);
   const std::vector<PublishedRow>& rows = request.published.rows;
-  std::array<std::vector<std::size_t>, 2> places;
-  for (std::size_t variant = 0; variant < places.size(); ++variant) {
+  std::array<std::vector<std::size_t>, 2> first_jobs;  // of each row
+  for (std::size_t variant = 0; variant < first_jobs.size(); ++variant) {
     for (const PublishedRow& row : rows) {
-      auto place = plan.add(row, variant == 0 ? row.settings : std::vector<std::string>());
-      if (!place) {
-        return tl::unexpected(std::move(place.error()));
-      }
-      places[variant].push_back(*place);
+      TWIN_TRY(const std::size_t first,
+               plan.add(row, variant == 0 ? row.settings : std::vector<std::string>()));
+      first_jobs[variant].push_back(first);
     }
   }
-  auto summaries = studies::run_jobs(plan.jobs(), request.running);
-  if (!summaries) {
-    return tl::unexpected(std::move(summaries.error()));
-  }
+  TWIN_TRY(const std::vector<results::Summary> summaries,
+           studies::run_jobs(plan.jobs(), request.running));
   Reproduction result;
   result.source = request.published.source;
   result.machine = plan.jobs().front().machine.name;
@@ -134,10 +127,10 @@ Expected<Reproduction> reproduce(const Request& request) {
   result.variants[0].title = "as published";
   result.variants[1].name = "defaults";
   result.variants[1].title = "defaults of this program";
-  for (std::size_t variant = 0; variant < places.size(); ++variant) {
+  for (std::size_t variant = 0; variant < first_jobs.size(); ++variant) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       result.variants[variant].answers.push_back(
-          answer(rows[i], request, plan.jobs(), *summaries, places[variant][i]));
+          answer(rows[i], request, plan.jobs(), summaries, first_jobs[variant][i]));
     }
   }
   return result;

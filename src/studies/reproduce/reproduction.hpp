@@ -20,13 +20,13 @@ struct Request {
   studies::Options running;
 };
 
-/// Mean and standard deviation of a figure over the repeats.
+/// Mean and standard deviation of a number over the repeats.
 struct Spread {
   double mean = 0.0;
   double deviation = 0.0;  ///< of one run; 0 for a single repeat
 };
 
-/// Our answer to a published row. Figures are in the order and the units of columns_of(table).
+/// Our answer to a published row. Numbers are in the order and the units of columns_of(table).
 struct Answer {
   PublishedRow published;
   std::vector<double> single;    ///< with the phases of the machine file
@@ -46,7 +46,7 @@ struct Variant {
 /// The paper's tables, answered twice: with the variants of the method that the paper describes
 /// for each row, and with the defaults of this program.
 struct Reproduction {
-  std::string source;   ///< of the published figures
+  std::string source;   ///< of the published numbers
   std::string machine;  ///< name of the machine file
   int repeats = 0;
   std::array<Variant, 2> variants;

@@ -13,8 +13,8 @@
 #include "studies/identify/minimise.hpp"
 #include "studies/identify/parallel_for.hpp"
 #include "studies/identify/table_run.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
 #include "studies/reproduce/phases.hpp"
+#include "studies/reproduce/published_columns.hpp"
 #include "studies/reproduce/table_parameters.hpp"
 
 namespace twin::studies::reproduce {
@@ -26,7 +26,7 @@ using studies::identify::TableRun;
 
 constexpr double kLargestKf = 0.6;  // of the planning model, that is tried
 constexpr int kBitsOfKf = 12;       // a few thousandths
-constexpr std::size_t kErrors = 6;  // of a row: all figures but the time, which comes last
+constexpr std::size_t kErrors = 6;  // of a row: all columns but the time, which comes last
 constexpr std::size_t kPopulation = 16;
 constexpr double kMoved = 0.1;  // of a range, to see whether a parameter matters
 
@@ -39,11 +39,8 @@ class Rows {
       if (!is_measured(row.table)) {
         continue;
       }
-      auto program = config::find_program(row.program + ".nc");
-      if (!program) {
-        return tl::unexpected(program.error());
-      }
-      rows.rows_.push_back({row, *program});
+      TWIN_TRY(std::filesystem::path program, config::find_program(row.program + ".nc"));
+      rows.rows_.push_back({row, std::move(program)});
     }
     return rows;
   }
@@ -54,7 +51,7 @@ class Rows {
     studies::identify::parallel_for(rows_.size(), [&](std::size_t i) {
       MachineFile file = machine;
       std::vector<std::string> settings = rows_[i].row.settings;
-      settings.push_back("interpolator.kind=" + rows_[i].row.interpolator);
+      settings.push_back("path.curves=" + rows_[i].row.interpolator);
       if (auto set = config::apply_overrides(file, settings); !set) {
         planned[i] = tl::unexpected(set.error());
         return;
@@ -64,18 +61,16 @@ class Rows {
                          units::mm_per_s_from_mm_per_min(rows_[i].row.feedrate_mm_per_min));
     });
     std::vector<TableRun> runs;
-    for (auto& run : planned) {
-      if (!run) {
-        return tl::unexpected(run.error());
-      }
-      runs.push_back(std::move(*run));
+    for (auto& one : planned) {
+      TWIN_TRY(TableRun run, std::move(one));
+      runs.push_back(std::move(run));
     }
     return runs;
   }
 
   std::size_t size() const { return rows_.size(); }
-  /// Published figures of a row, in the order of columns_of().
-  const std::vector<double>& figures(std::size_t i) const { return rows_[i].row.figures; }
+  /// Published numbers of a row, in the order of columns_of().
+  const std::vector<double>& values(std::size_t i) const { return rows_[i].row.values; }
 
  private:
   struct Row {
@@ -85,18 +80,18 @@ class Rows {
   std::vector<Row> rows_;
 };
 
-std::array<double, kErrors> figures_um(const RunErrors& e) {
-  std::array<double, kErrors> figures{e.contour_max, e.contour_rms, e.axis_max[0],
-                                      e.axis_rms[0], e.axis_max[1], e.axis_rms[1]};
-  std::ranges::for_each(figures, [](double& x) { x = units::um_from_mm(x); });
-  return figures;
+std::array<double, kErrors> errors_um(const RunErrors& e) {
+  std::array<double, kErrors> errors{e.contour_max, e.contour_rms, e.axis_max[0],
+                                     e.axis_rms[0], e.axis_max[1], e.axis_rms[1]};
+  std::ranges::for_each(errors, [](double& x) { x = units::um_from_mm(x); });
+  return errors;
 }
 
 /// Root mean square of machining time / published - 1.
 double time_error(const Rows& rows, const std::vector<TableRun>& runs) {
   double sum = 0.0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    sum += std::pow(runs[i].machining_time() / rows.figures(i).back() - 1.0, 2);
+    sum += std::pow(runs[i].machining_time() / rows.values(i).back() - 1.0, 2);
   }
   return std::sqrt(sum / static_cast<double>(runs.size()));
 }
@@ -115,21 +110,21 @@ constexpr Stage kNear{0.4, 0.05, 3, share_cost, 0.4};
 double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const MachineFile& machine,
                const Stage& stage) {
   const std::size_t n = stage.repeats;
-  std::vector<std::array<double, kErrors>> figures(runs.size() * n);
-  studies::identify::parallel_for(figures.size(), [&](std::size_t i) {
+  std::vector<std::array<double, kErrors>> errors(runs.size() * n);
+  studies::identify::parallel_for(errors.size(), [&](std::size_t i) {
     MachineFile file = machine;
     file.table = with_phases_of_repeat(machine.table, static_cast<int>(i % n));
-    figures[i] = figures_um(runs[i / n].run(file));
+    errors[i] = errors_um(runs[i / n].run(file));
   });
   double cost = 0.0;
   for (std::size_t row = 0; row < runs.size(); ++row) {
     for (std::size_t k = 0; k < kErrors; ++k) {
       double mean = 0.0;
       for (std::size_t repeat = 0; repeat < n; ++repeat) {
-        mean += figures[row * n + repeat][k] / static_cast<double>(n);
+        mean += errors[row * n + repeat][k] / static_cast<double>(n);
       }
-      cost += stage.cost(mean, rows.figures(row)[k]) +
-              stage.weight_of_first * stage.cost(figures[row * n][k], rows.figures(row)[k]);
+      cost += stage.cost(mean, rows.values(row)[k]) +
+              stage.weight_of_first * stage.cost(errors[row * n][k], rows.values(row)[k]);
     }
   }
   return cost;
@@ -175,24 +170,15 @@ double share_cost(double ours, double published) {
 
 Expected<TableFit> fit_tables(const Published& published, const MachineFile& start,
                               const TableFitOptions& options) {
-  auto rows = Rows::create(published);
-  auto parameters = studies::identify::ParameterSet::create(table_parameters());
-  if (!rows || !parameters) {
-    return tl::unexpected(!rows ? rows.error() : parameters.error());
-  }
-  const auto planned = fit_planning(*rows, start);
-  if (!planned) {
-    return tl::unexpected(planned.error());
-  }
-  const auto runs = rows->plan(*planned);
-  if (!runs) {
-    return tl::unexpected(runs.error());
-  }
+  TWIN_TRY(const Rows rows, Rows::create(published));
+  TWIN_TRY(const auto parameters, studies::identify::ParameterSet::create(table_parameters()));
+  TWIN_TRY(const MachineFile planned, fit_planning(rows, start));
+  TWIN_TRY(const std::vector<TableRun> runs, rows.plan(planned));
   const auto cost = [&](std::span<const double> x, const Stage& stage) {
-    return cost_of(*rows, *runs, parameters->with_units(*planned, x), stage);
+    return cost_of(rows, runs, parameters.with_units(planned, x), stage);
   };
   TableFit fit;
-  std::vector<double> x = parameters->units(*planned);
+  std::vector<double> x = parameters.units(planned);
   fit.cost_before = cost(x, kNear);
   double done = 0.0;
   for (const Stage& stage : {kWide, kNear}) {
@@ -217,15 +203,15 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
   }
   fit.cost_after = cost(x, kNear);
   if (fit.cost_after > fit.cost_before) {  // the wide stage has left what was better
-    x = parameters->units(*planned);
+    x = parameters.units(planned);
     fit.cost_after = fit.cost_before;
   }
-  fit.machine = parameters->with_units(*planned, x);
-  fit.time_error = time_error(*rows, *runs);
-  const std::vector<double> before = parameters->values(start);
-  const std::vector<double> after = parameters->values(fit.machine);
-  for (std::size_t i = 0; i < parameters->size(); ++i) {
-    FittedValue value{(*parameters)[i].key, before[i], after[i], 0.0, false};
+  fit.machine = parameters.with_units(planned, x);
+  fit.time_error = time_error(rows, runs);
+  const std::vector<double> before = parameters.values(start);
+  const std::vector<double> after = parameters.values(fit.machine);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    FittedValue value{parameters[i].key, before[i], after[i], 0.0, false};
     value.is_at_bound = x[i] < 1e-3 || x[i] > 1.0 - 1e-3;
     if (!fit.was_stopped) {
       std::vector<double> moved = x;

@@ -40,12 +40,12 @@ struct TableFit {
   bool was_stopped = false;
 };
 
-/// Cost of a figure that should be `published`: with e = ln(ours / published)
+/// Cost of a number that should be `published`: with e = ln(ours / published)
 ///   e^2 / (2 (e^2 + 0.15^2)) + e^2 / (2 (e^2 + 0.28^2)) + e^2 / 20,
-/// so that a figure that cannot be reached costs about 1 and does not pull the others along.
+/// so that a number that cannot be reached costs about 1 and does not pull the others along.
 double smooth_cost(double ours, double published);
 
-/// Cost of a figure by the shares in which figures are counted: with d = |ours / published - 1| and
+/// Cost of a number by the shares in which numbers are counted: with d = |ours / published - 1| and
 /// S the logistic function
 ///   S((d - 0.19) / 0.02) + 0.8 S((d - 0.285) / 0.02) + smooth_cost / 4.
 double share_cost(double ours, double published);

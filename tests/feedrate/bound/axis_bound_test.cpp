@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "bound_of.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 /// The bound where axes have limits of their own.
 namespace twin::feedrate {
 namespace axis_bound_test {
 
-using feedrate::testing::PlanSettings;
-using path::testing::arc_block;
-using path::testing::line_block;
-using testing::bound_of;
+using test::arc_block;
+using test::bound_of;
+using test::line_block;
+using test::PlanSettings;
 
 PlanSettings with_axes(const Vec3& feedrate, const Vec3& acceleration) {
   PlanSettings settings;
@@ -48,7 +48,7 @@ TEST(AxisBound, OnACircleEachAxisKeepsItsAccelerationAndOneReachesIt) {
   const double most = 1200.0;
   const auto settings = with_axes(Vec3::Zero(), {most, most, 0});
   const auto arc = arc_block({radius, 0, 0}, {0, 1, 0}, radius, 4.0 * std::numbers::pi, true);
-  std::vector<testing::At> profile;
+  std::vector<test::At> profile;
   bound_of({arc}, settings, &profile);
   double peak = 0.0;
   for (std::size_t i = 1; i < profile.size(); ++i) {

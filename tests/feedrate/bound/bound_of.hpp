@@ -5,7 +5,7 @@
 #include "feedrate/bound/time_bound.hpp"
 #include "tests/support/plan.hpp"
 
-namespace twin::feedrate::testing {
+namespace twin::test {
 
 /// Place of the bound's profile.
 struct At {
@@ -14,24 +14,23 @@ struct At {
 };
 
 /// Bound of a plan [s].
-inline double bound_of(const feedrate::testing::Plan& plan,
-                       const feedrate::testing::PlanSettings& settings = {},
+inline double bound_of(const Plan& plan, const PlanSettings& settings = {},
                        std::vector<At>* profile = nullptr) {
-  TimeBound::Profile record;
+  feedrate::TimeBound::Profile record;
   if (profile != nullptr) {
     record = [profile](double s, double v) { profile->push_back({s, v}); };
   }
-  TimeBound bound(settings.limits, settings.model, settings.path, settings.period, record);
+  feedrate::TimeBound bound(settings.limits, settings.model, settings.path, settings.period,
+                            record);
   for (const feedrate::PlannedSegment& planned : plan.segments) {
     bound.add(planned);
   }
   return bound.finish();
 }
 
-inline double bound_of(const std::vector<gcode::Block>& blocks,
-                       const feedrate::testing::PlanSettings& settings = {},
+inline double bound_of(const std::vector<gcode::Block>& blocks, const PlanSettings& settings = {},
                        std::vector<At>* profile = nullptr) {
-  return bound_of(feedrate::testing::plan(blocks, settings), settings, profile);
+  return bound_of(plan(blocks, settings), settings, profile);
 }
 
-}  // namespace twin::feedrate::testing
+}  // namespace twin::test

@@ -6,16 +6,16 @@
 #include <numbers>
 
 #include "bound_of.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
 namespace twin::feedrate {
 namespace time_bound_test {
 
-using feedrate::testing::PlanSettings;
-using path::testing::arc_block;
-using path::testing::dwell_block;
-using path::testing::line_block;
-using testing::bound_of;
+using test::arc_block;
+using test::bound_of;
+using test::dwell_block;
+using test::line_block;
+using test::PlanSettings;
 
 constexpr double kA = 2450.0;  // acceleration limit [mm/s^2]
 constexpr double kV = 50.0;    // programmed feedrate [mm/s]
@@ -48,7 +48,7 @@ TEST(TimeBound, ALineInPiecesTakesAsLongAsTheUncutLine) {
     for (int i = 0; i <= count; ++i) {
       points.push_back(100.0 * i / count * Vec3(0.6, 0.8, 0.0));
     }
-    EXPECT_NEAR(bound_of(path::testing::polyline(points)), 100.0 / kV + kV / kA, 1e-6) << count;
+    EXPECT_NEAR(bound_of(test::polyline(points)), 100.0 / kV + kV / kA, 1e-6) << count;
   }
 }
 
@@ -79,8 +79,8 @@ TEST(TimeBound, RestsAndDwellsCount) {
 }
 
 TEST(TimeBound, ACornerIsPassedAtThePlannersOwnLimit) {
-  const auto plan = feedrate::testing::plan(std::vector<gcode::Block>{
-      line_block({0, 0, 0}, {20, 0, 0}), line_block({20, 0, 0}, {20, 20, 0})});
+  const auto plan = test::plan(std::vector<gcode::Block>{line_block({0, 0, 0}, {20, 0, 0}),
+                                                         line_block({20, 0, 0}, {20, 20, 0})});
   double corner = 0.0;
   for (const feedrate::LimitZone& zone : plan.segments[0].limits) {
     corner = zone.begin == zone.end ? zone.limit : corner;
@@ -90,9 +90,9 @@ TEST(TimeBound, ACornerIsPassedAtThePlannersOwnLimit) {
 }
 
 TEST(TimeBound, ItsProfileTakesTheTimeOfTheBound) {
-  const auto points = path::testing::circle_points(1.2, 0.1, 400);
-  std::vector<testing::At> profile;
-  const double bound = bound_of(path::testing::polyline(points), {}, &profile);
+  const auto points = test::circle_points(1.2, 0.1, 400);
+  std::vector<test::At> profile;
+  const double bound = bound_of(test::polyline(points), {}, &profile);
   double time = 0.0;
   for (std::size_t i = 1; i < profile.size(); ++i) {
     const double length = profile[i].s - profile[i - 1].s;

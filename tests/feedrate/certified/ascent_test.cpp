@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/feedrate/lattice_optimum.hpp"
-#include "tests/feedrate/profile/s_curve.hpp"
 #include "tests/support/random_zones.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace ascent_test {
 
-using testing::log_uniform;
+using test::log_uniform;
 
 constexpr RampLimits kTable2{2450.0, 50000.0};
 
@@ -85,13 +85,13 @@ TEST(Ascent, WaitsAtTheLimitWhereTheStepIsLong) {
 TEST(Ascent, RandomStaircasesAreKeptAndPNeverFalls) {
   std::mt19937 random(1);
   for (int i = 0; i < 20000; ++i) {
-    const RampLimits ramp = testing::random_limits(random);
+    const RampLimits ramp = test::random_limits(random);
     const auto zones = random_staircase(random, 1 + static_cast<int>(random() % 60),
                                         log_uniform(random, 0.1, 20.0), 3.0);
     const Ascent ascent = whole(zones, ramp);
-    const testing::MotionProfile profile(ascent.phases());
-    ASSERT_NO_FATAL_FAILURE(testing::expect_feasible(profile, ramp)) << "case " << i;
-    ASSERT_NO_FATAL_FAILURE(testing::expect_under_zones(profile, zones)) << "case " << i;
+    const test::MotionProfile profile(ascent.phases());
+    ASSERT_NO_FATAL_FAILURE(test::expect_feasible(profile, ramp)) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(test::expect_under_zones(profile, zones)) << "case " << i;
     double p = 0.0;
     for (const Phase& phase : ascent.phases()) {
       const double now = phase.v + 0.5 * phase.a * phase.a / ramp.jerk;
@@ -136,7 +136,7 @@ TEST(Ascent, LosesLittleMoreTimeThanTheBestOfAllOnALattice) {
       zone.limit = unit * std::round(zone.limit / unit);
     }
     const double here = time_lost(whole(zones, ramp), zones.back().limit);
-    const double there = testing::least_time_lost(zones, ramp, kStep);
+    const double there = test::least_time_lost(zones, ramp, kStep);
     EXPECT_LE(here, 1.1 * there + kStep) << "case " << i;
     lost += here;
     best += there;

@@ -4,15 +4,15 @@
 
 #include <numbers>
 
-#include "feedrate/limits/curvature_limit.hpp"
-#include "tests/path/blocks.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/random_program.hpp"
 
 namespace twin::feedrate {
 namespace certified_limits_test {
 
-using path::testing::build;
-using path::testing::polyline;
+using test::build;
+using test::polyline;
 
 path::PathPoint place(const path::FittedCurve& fitted, double s) {
   return path::point_from(fitted.curve.derivatives(fitted.arc_length.u_at(fitted.curve, s, 0.0)));
@@ -25,7 +25,7 @@ void for_places(const Limits& limits, const F& f) {
   CertifiedLimits certified(limits, {}, {}, 1e-3);
   int curves = 0;
   for (int i = 0; i < 60; ++i) {
-    for (const path::Segment& segment : build(testing::random_program(random, 25))) {
+    for (const path::Segment& segment : build(test::random_program(random, 25))) {
       const auto* fitted = std::get_if<path::FittedCurve>(&segment.geometry);
       if (fitted == nullptr) {
         continue;

@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "feedrate/paper/envelope.hpp"
-#include "tests/feedrate/profile/s_curve.hpp"
 #include "tests/support/random_zones.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace glide_test {
 
-using testing::expect_feasible;
-using testing::expect_under_zones;
-using testing::log_uniform;
-using testing::MotionProfile;
-using testing::random_zones;
+using test::expect_feasible;
+using test::expect_under_zones;
+using test::log_uniform;
+using test::MotionProfile;
+using test::random_zones;
 
 constexpr RampLimits kTable2{2450.0, 50000.0};
 
@@ -42,7 +42,7 @@ TEST(Glide, RandomZonesAreKept) {
   std::mt19937 random(1);
   for (int i = 0; i < 20000; ++i) {
     const auto zones = random_zones(random);
-    const RampLimits limits = testing::random_limits(random);
+    const RampLimits limits = test::random_limits(random);
     const MotionProfile profile = glide(zones, limits);
     ASSERT_FALSE(profile.phases().empty()) << "case " << i;
     ASSERT_NO_FATAL_FAILURE(expect_feasible(profile, limits)) << "case " << i;

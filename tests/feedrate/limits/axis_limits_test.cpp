@@ -4,12 +4,12 @@
 
 #include <random>
 
-#include "tests/feedrate/profile/s_curve.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace axis_limits_test {
 
-using testing::log_uniform;
+using test::log_uniform;
 
 TEST(AxisLimits, NoneLeaveAZoneAsItIs) {
   EXPECT_FALSE(has_axis_limits({}));

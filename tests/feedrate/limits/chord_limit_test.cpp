@@ -1,8 +1,8 @@
-#include "feedrate/limits/chord_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
@@ -34,14 +34,14 @@ TEST(ChordLimit, IsInfiniteWhereNoChordLeavesTheTolerance) {
 }
 
 TEST(ChordLimit, BindsThePlannedFeedrateOnAnArc) {
-  testing::PlanSettings settings;
+  test::PlanSettings settings;
   settings.period = kPeriod;
   settings.model.feedrate_rule = FeedrateRule::kChordError;
   settings.path.chord_error = 0.001;
   constexpr double kRadius = 2.0;
-  const auto planned = testing::plan(
-      {path::testing::arc_block({0, 0, 0}, {1, 0, 0}, kRadius, 5.0, true, 150.0)}, settings);
-  testing::expect_whole(planned, settings.limits);
+  const auto planned =
+      test::plan({test::arc_block({0, 0, 0}, {1, 0, 0}, kRadius, 5.0, true, 150.0)}, settings);
+  test::expect_whole(planned, settings.limits);
   double fastest = 0.0;
   for (const Phase& phase : planned.segments.at(0).phases) {
     fastest = std::max(fastest, phase.v);

@@ -1,8 +1,8 @@
-#include "feedrate/limits/contact_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/plan.hpp"
 
 namespace twin::feedrate {
@@ -77,8 +77,9 @@ double fastest(const PlannedSegment& planned) {
   return v;
 }
 
-testing::PlanSettings with_tool(double radius, ToolSide side) {
-  testing::PlanSettings settings;
+test::PlanSettings with_tool(double radius, ToolSide side) {
+  test::PlanSettings settings;
+  settings.path.planner = Planner::kPaper;
   settings.model.feedrate_rule = FeedrateRule::kContactSpeed;
   settings.model.tool_radius = radius;
   settings.model.tool_side = side;
@@ -88,10 +89,9 @@ testing::PlanSettings with_tool(double radius, ToolSide side) {
 TEST(ContactLimit, OfAnArcIsPlannedAboveAndBelowTheProgrammedFeedrate) {
   const auto settings = with_tool(4.0, ToolSide::kLeft);
   for (const bool is_left : {true, false}) {
-    const auto planned = testing::plan(
-        {path::testing::arc_block({0, 0, 0}, {1, 0, 0}, 12.0, 6.0, is_left, kProgrammed)},
-        settings);
-    testing::expect_whole(planned, settings.limits);
+    const auto planned = test::plan(
+        {test::arc_block({0, 0, 0}, {1, 0, 0}, 12.0, 6.0, is_left, kProgrammed)}, settings);
+    test::expect_whole(planned, settings.limits);
     EXPECT_NEAR(fastest(planned.segments.at(0)), is_left ? 37.5 : 75.0, 1e-6);
   }
 }
@@ -99,10 +99,10 @@ TEST(ContactLimit, OfAnArcIsPlannedAboveAndBelowTheProgrammedFeedrate) {
 TEST(ContactLimit, IsBoundedByTheLargestFeedrateAndTheNormalAcceleration) {
   auto settings = with_tool(11.5, ToolSide::kLeft);
   settings.limits.feedrate = 90.0;
-  const auto block = path::testing::arc_block({0, 0, 0}, {1, 0, 0}, 12.0, 6.0, false, kProgrammed);
-  EXPECT_NEAR(fastest(testing::plan({block}, settings).segments.at(0)), 90.0, 1e-6);
+  const auto block = test::arc_block({0, 0, 0}, {1, 0, 0}, 12.0, 6.0, false, kProgrammed);
+  EXPECT_NEAR(fastest(test::plan({block}, settings).segments.at(0)), 90.0, 1e-6);
   settings.limits.acceleration = 400.0;
-  EXPECT_NEAR(fastest(testing::plan({block}, settings).segments.at(0)), std::sqrt(4800.0), 1e-6);
+  EXPECT_NEAR(fastest(test::plan({block}, settings).segments.at(0)), std::sqrt(4800.0), 1e-6);
 }
 
 /// A fitted outline with inside and outside rounds of radius 2 and more.
@@ -113,14 +113,14 @@ std::vector<gcode::Block> outline() {
     const double r = 10.0 + 1.5 * std::cos(4.0 * a);
     points.emplace_back(r * std::cos(a), r * std::sin(a), 0.0);
   }
-  return path::testing::polyline(points, 20.0);
+  return test::polyline(points, 20.0);
 }
 
 TEST(ContactLimit, OfFittedCurvesVariesAlongThem) {
   for (const ToolSide side : {ToolSide::kLeft, ToolSide::kRight}) {
     const auto settings = with_tool(1.0, side);
-    const auto planned = testing::plan(outline(), settings);
-    testing::expect_whole(planned, settings.limits);
+    const auto planned = test::plan(outline(), settings);
+    test::expect_whole(planned, settings.limits);
     EXPECT_EQ(planned.fallbacks, 0);
     double closest = 0.0;  // contact speed by programmed feedrate
     double highest = 0.0;
@@ -142,14 +142,14 @@ TEST(ContactLimit, OfFittedCurvesVariesAlongThem) {
 
 TEST(ContactLimit, OfAnArcOutsideTheXyPlaneFollowsItsSlope) {
   // A helix about the X axis: its projection into the XY plane is a sine.
-  gcode::Block block = path::testing::arc_block({0, 0, 0}, {1, 0, 0}, 5.0, 6.0, true, kProgrammed);
+  gcode::Block block = test::arc_block({0, 0, 0}, {1, 0, 0}, 5.0, 6.0, true, kProgrammed);
   block.arc.e1 = Vec3::UnitY();
   block.arc.e2 = Vec3::UnitZ();
   block.arc.rise = 40.0;
   std::vector<LimitZone> zones;
   const auto settings = with_tool(3.0, ToolSide::kLeft);
-  const auto planned = testing::plan({block}, settings);
-  testing::expect_whole(planned, settings.limits);
+  const auto planned = test::plan({block}, settings);
+  test::expect_whole(planned, settings.limits);
   double low = 1e9;
   double high = 0.0;
   for (const LimitZone& zone : planned.segments.at(0).limits) {

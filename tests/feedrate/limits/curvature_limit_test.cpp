@@ -1,4 +1,4 @@
-#include "feedrate/limits/curvature_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 #include <gtest/gtest.h>
 

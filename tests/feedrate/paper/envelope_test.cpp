@@ -2,19 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/motion_profile.hpp"
-#include "tests/feedrate/profile/profiles.hpp"
-#include "tests/feedrate/profile/s_curve.hpp"
+#include "tests/support/motion_profile.hpp"
 #include "tests/support/random_zones.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace envelope_test {
 
-using testing::expect_feasible;
-using testing::expect_under_zones;
-using testing::log_uniform;
-using testing::MotionProfile;
-using testing::random_zones;
+using test::expect_feasible;
+using test::expect_under_zones;
+using test::log_uniform;
+using test::MotionProfile;
+using test::random_zones;
 
 constexpr RampLimits kTable2{2450.0, 50000.0};
 
@@ -42,11 +41,11 @@ TEST(Envelope, FromRestToRestIsAlwaysFoundAndKeepsEveryLimit) {
   std::mt19937 random(1);
   for (int i = 0; i < 30000; ++i) {
     const auto zones = random_zones(random);
-    RampLimits limits = testing::random_limits(random);
-    limits.profile = testing::kProfiles[static_cast<std::size_t>(i) % 3];
+    RampLimits limits = test::random_limits(random);
+    limits.profile = test::kProfiles[static_cast<std::size_t>(i) % 3];
     Envelope envelope(limits);
-    const Knot start{zones.front().begin, 0.0};
-    const Knot end{zones.back().end, 0.0};
+    const Anchor start{zones.front().begin, 0.0};
+    const Anchor end{zones.back().end, 0.0};
     ASSERT_TRUE(envelope.plan(zones, start, end)) << "case " << i;
     const auto& humps = envelope.humps();
     ASSERT_EQ(humps.front().a.s, start.s);
@@ -68,7 +67,7 @@ TEST(Envelope, IsNeverSlowerThanStoppingAtEveryBorder) {
   for (int i = 0; i < 30000; ++i) {
     const auto zones = random_zones(random);
     RampLimits limits = kTable2;
-    limits.profile = testing::kProfiles[static_cast<std::size_t>(i) % 3];
+    limits.profile = test::kProfiles[static_cast<std::size_t>(i) % 3];
     Envelope envelope(limits);
     ASSERT_TRUE(envelope.plan(zones, {zones.front().begin, 0.0}, {zones.back().end, 0.0}));
     const double time = profile_of(envelope, limits).duration();
@@ -81,10 +80,10 @@ TEST(Envelope, IsNeverFasterThanAccelerationAloneAllows) {
   double closest = 1e9;
   for (int i = 0; i < 2000; ++i) {
     const auto zones = random_zones(random);
-    const RampLimits limits = testing::random_limits(random);
+    const RampLimits limits = test::random_limits(random);
     Envelope envelope(limits);
     ASSERT_TRUE(envelope.plan(zones, {zones.front().begin, 0.0}, {zones.back().end, 0.0}));
-    const double bound = testing::acceleration_bound(zones, 0.0, 0.0, limits.acceleration, 1000);
+    const double bound = test::acceleration_bound(zones, 0.0, 0.0, limits.acceleration, 1000);
     const double time = profile_of(envelope, limits).duration();
     ASSERT_GE(time, bound * (1.0 - 1e-6)) << "case " << i;
     closest = std::min(closest, time / bound);
@@ -98,7 +97,7 @@ TEST(Envelope, ComesCloseToTheAccelerationBoundWhenJerkIsPlenty) {
   const RampLimits limits{2450.0, 1e8};
   Envelope envelope(limits);
   ASSERT_TRUE(envelope.plan(zones, {0, 0}, {40, 0}));
-  const double bound = testing::acceleration_bound(zones, 0.0, 0.0, 2450.0, 100000);
+  const double bound = test::acceleration_bound(zones, 0.0, 0.0, 2450.0, 100000);
   EXPECT_NEAR(profile_of(envelope, limits).duration(), bound, 0.004 * bound);
 }
 
@@ -158,22 +157,23 @@ TEST(Envelope, PlannedAgainFromOneOfItsKnotsIsTheSame) {
   for (int i = 0; i < 3000; ++i) {
     const auto zones = random_zones(random);
     Envelope envelope(kTable2);
-    const Knot end{zones.back().end, 0.0};
+    const Anchor end{zones.back().end, 0.0};
     ASSERT_TRUE(envelope.plan(zones, {zones.front().begin, 0.0}, end));
     const std::vector<Hump> whole = envelope.humps();
-    const Knot knot = whole[random() % whole.size()].a;
-    const auto from = std::find_if(zones.begin(), zones.end(),
-                                   [&](const LimitZone& zone) { return zone.end > knot.s + 1e-9; });
-    if (knot.v == 0.0 || from == zones.end()) {
+    const Anchor anchor = whole[random() % whole.size()].a;
+    const auto from = std::find_if(zones.begin(), zones.end(), [&](const LimitZone& zone) {
+      return zone.end > anchor.s + 1e-9;
+    });
+    if (anchor.v == 0.0 || from == zones.end()) {
       continue;
     }
     ++again;
-    ASSERT_TRUE(envelope.plan({from, zones.end()}, knot, end)) << "case " << i;
+    ASSERT_TRUE(envelope.plan({from, zones.end()}, anchor, end)) << "case " << i;
     double rest = 0.0;
     for (const Hump& hump : whole) {
       std::vector<Phase> phases;
       append_phases(hump, kTable2, phases);
-      rest += hump.a.s >= knot.s ? MotionProfile(phases).duration() : 0.0;
+      rest += hump.a.s >= anchor.s ? MotionProfile(phases).duration() : 0.0;
     }
     ASSERT_LE(profile_of(envelope, kTable2).duration(), rest * (1.0 + 1e-6)) << "case " << i;
   }

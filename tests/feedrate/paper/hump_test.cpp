@@ -2,26 +2,26 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/feedrate/profile/s_curve.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace hump_test {
 
-using testing::log_uniform;
+using test::log_uniform;
 
 constexpr RampLimits kTable2{2450.0, 50000.0};
 
 struct Case {
-  Knot a;
-  Knot b;
+  Anchor a;
+  Anchor b;
   double cap;
   RampLimits limits;
 };
 
-/// Random knots of which each can be reached from the other.
+/// Random anchors of which each can be reached from the other.
 Case random_case(std::mt19937& random) {
   Case c;
-  c.limits = testing::random_limits(random);
+  c.limits = test::random_limits(random);
   c.a.s = log_uniform(random, 1e-3, 100.0);
   c.a.v = random() % 4 == 0 ? 0.0 : log_uniform(random, 0.01, 300.0);
   const double d = log_uniform(random, 1e-4, 300.0);
@@ -102,8 +102,8 @@ TEST(FasterThan, IsEmptyAtThePeakAndAllBelowTheEnds) {
 
 TEST(FasterThan, EndsWhereTheIntegratedRampsPassTheFeedrate) {
   const Hump hump = make_hump({1, 20}, {30, 0}, 180.0, kTable2);
-  const testing::SCurve up(hump.peak - 20.0, kTable2);
-  const testing::SCurve down(hump.peak, kTable2);
+  const test::SCurve up(hump.peak - 20.0, kTable2);
+  const test::SCurve down(hump.peak, kTable2);
   for (const double v : {25.0, 60.0, 110.0, 150.0}) {
     const Interval fast = faster_than(hump, v, kTable2);
     EXPECT_NEAR(fast.begin, 1.0 + up.distance_until(20.0, v), 1e-5);

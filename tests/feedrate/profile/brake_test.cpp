@@ -1,8 +1,8 @@
-#include "feedrate/profile/brake.hpp"
+#include "feedrate/profile/phases.hpp"
 
 #include <gtest/gtest.h>
 
-#include "s_curve.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace brake_test {
@@ -15,12 +15,12 @@ struct Case {
 /// A state that a motion within the limits can be in: from v it can still avoid going backwards.
 Case random_case(std::mt19937& random) {
   Case c;
-  c.limits = testing::random_limits(random);
+  c.limits = test::random_limits(random);
   std::uniform_real_distribution<double> part(-1.0, 1.0);
   c.from.s = 5.0 * part(random);
   c.from.a = random() % 5 == 0 ? 0.0 : c.limits.acceleration * part(random);
   const double least = c.from.a < 0.0 ? 0.5 * c.from.a * c.from.a / c.limits.jerk : 0.0;
-  c.from.v = least + (random() % 5 == 0 ? 0.0 : testing::log_uniform(random, 1e-3, 500.0));
+  c.from.v = least + (random() % 5 == 0 ? 0.0 : test::log_uniform(random, 1e-3, 500.0));
   return c;
 }
 

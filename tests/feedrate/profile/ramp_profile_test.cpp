@@ -2,16 +2,15 @@
 
 #include <limits>
 
-#include "feedrate/profile/phase.hpp"
-#include "feedrate/profile/ramp.hpp"
-#include "profiles.hpp"
-#include "s_curve.hpp"
+#include "feedrate/profile/phases.hpp"
+#include "feedrate/profile/ramps.hpp"
+#include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace ramp_profile_test {
 
-using testing::kProfiles;
-using testing::log_uniform;
+using test::kProfiles;
+using test::log_uniform;
 
 /// The phases of the ramp from v1 to v2 by itself.
 std::vector<Phase> phases_of(double v1, double v2, const RampLimits& limits) {
@@ -31,7 +30,7 @@ PathMotion motion_of(const std::vector<Phase>& phases, double t) {
 }
 
 RampLimits random_limits(std::mt19937& random, AccelerationProfile profile) {
-  RampLimits limits = testing::random_limits(random);
+  RampLimits limits = test::random_limits(random);
   limits.profile = profile;
   return limits;
 }

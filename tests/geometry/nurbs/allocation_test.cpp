@@ -1,38 +1,21 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 
 #include "butterfly.hpp"
 #include "geometry/nurbs/arc_length.hpp"
 #include "geometry/nurbs/deviation.hpp"
 #include "geometry/nurbs/fit.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Not inlined: g++ would see free() meet memory of operator new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocations.hpp"
 
 namespace twin::geometry {
 namespace {
 
 template <class Call>
-long allocations_of(Call call) {
-  const long before = allocations;
+std::int64_t allocations_of(Call call) {
+  const std::int64_t before = test::allocations();
   call();
-  return allocations - before;
+  return test::allocations() - before;
 }
 
 TEST(Allocation, IsCountedHere) {

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "butterfly.hpp"
+#include "geometry/gauss_legendre.hpp"
 #include "geometry/nurbs/circle.hpp"
 #include "geometry/nurbs/fit.hpp"
-#include "geometry/nurbs/gauss_legendre.hpp"
 #include "random_curve.hpp"
 
 namespace twin::geometry {
@@ -52,7 +52,7 @@ Curve random_fit(test::RandomCurves& random, int blocks, double turn) {
   }
   Fitter fitter;
   Curve curve;
-  EXPECT_TRUE(fitter.fit(points, {}, {}, curve));
+  EXPECT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
   return curve;
 }
 
@@ -190,7 +190,7 @@ TEST(ArcLength, OfAStraightRunIsItsChords) {
   }
   Fitter fitter;
   Curve curve;
-  ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+  ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
   ArcLength arc;
   arc.build(curve);
   EXPECT_NEAR(arc.length(), 10.3, 1e-12);
@@ -264,28 +264,42 @@ TEST(CurvatureSamples, FindTheTightPlacesOfTheButterfly) {
   EXPECT_NEAR(1.0 / greatest, 0.0231, 0.0003);
 }
 
+using FivePoints = gauss::Rule<5>;
+
 TEST(Gauss, QuarterWeightsIntegratePolynomialsUpToDegreeFour) {
   for (int degree = 0; degree <= 4; ++degree) {
-    gauss::Values values;
+    gauss::Values<5> values;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = std::pow(gauss::kNodes[i], degree);
+      values[i] = std::pow(FivePoints::kNodes[i], degree);
     }
-    for (std::size_t k = 0; k < gauss::kQuarters.size(); ++k) {
+    for (std::size_t k = 0; k < FivePoints::kQuarters.size(); ++k) {
       const double exact =
-          (std::pow(gauss::kQuarters[k], degree + 1) - std::pow(-1, degree + 1)) / (degree + 1);
-      EXPECT_NEAR(gauss::weighted_sum(gauss::kQuarterWeights[k], values), exact, 1e-15);
+          (std::pow(FivePoints::kQuarters[k], degree + 1) - std::pow(-1, degree + 1)) /
+          (degree + 1);
+      EXPECT_NEAR(gauss::weighted_sum(FivePoints::kQuarterWeights[k], values), exact, 1e-15);
     }
   }
 }
 
 TEST(Gauss, WeightsIntegratePolynomialsUpToDegreeNine) {
   for (int degree = 0; degree <= 9; ++degree) {
-    gauss::Values values;
+    gauss::Values<5> values;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = std::pow(gauss::kNodes[i], degree);
+      values[i] = std::pow(FivePoints::kNodes[i], degree);
     }
     const double exact = degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0;
-    EXPECT_NEAR(gauss::weighted_sum(gauss::kWeights, values), exact, 1e-15);
+    EXPECT_NEAR(gauss::weighted_sum(FivePoints::kWeights, values), exact, 1e-15);
+  }
+}
+
+TEST(Gauss, FourWeightsIntegratePolynomialsUpToDegreeSeven) {
+  for (int degree = 0; degree <= 7; ++degree) {
+    gauss::Values<4> values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = std::pow(gauss::Rule<4>::kNodes[i], degree);
+    }
+    const double exact = degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0;
+    EXPECT_NEAR(gauss::weighted_sum(gauss::Rule<4>::kWeights, values), exact, 1e-15);
   }
 }
 

@@ -26,7 +26,7 @@ std::vector<Vec3> circle_points() {
 Curve fitted(std::span<const Vec3> points, BezierFitter& fitter, const EndCondition& begin = {},
              const EndCondition& end = {}) {
   Curve curve;
-  EXPECT_TRUE(fitter.fit(points, begin, end, curve));
+  EXPECT_EQ(fitter.fit(points, begin, end, curve), FitResult::kFitted);
   return curve;
 }
 
@@ -81,9 +81,11 @@ TEST(BezierFit, EndsHaveTheGivenTangents) {
 TEST(BezierFit, RefusesPointsThatCoincideOrAreTooFew) {
   BezierFitter fitter;
   Curve curve;
-  EXPECT_FALSE(fitter.fit(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, {}, {}, curve));
-  EXPECT_FALSE(fitter.fit(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}, {}, curve));
-  EXPECT_FALSE(fitter.fit(std::vector<Vec3>{{0, 0, 0}}, {}, {}, curve));
+  EXPECT_EQ(fitter.fit(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, {}, {}, curve),
+            FitResult::kTooFewPoints);
+  EXPECT_EQ(fitter.fit(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}, {}, curve),
+            FitResult::kInvalidPoints);
+  EXPECT_EQ(fitter.fit(std::vector<Vec3>{{0, 0, 0}}, {}, {}, curve), FitResult::kTooFewPoints);
   EXPECT_TRUE(curve.is_empty());
 }
 

@@ -4,12 +4,12 @@
 
 #include "geometry/nurbs/curve.hpp"
 
-namespace twin::geometry::test {
+namespace twin::test {
 
 /// The butterfly of the NURBS interpolation literature: degree 3, 51 control points [mm], 0 <= u
 /// <= 1. Published length 382.859558 mm; smallest radius 0.0231 mm at u = 0.25635, point
 /// (84.943, 33.024).
-inline Curve butterfly() {
+inline geometry::Curve butterfly() {
   const double xy[][2] = {
       {54.493, 52.139}, {55.507, 52.139}, {56.082, 49.615},  {56.780, 44.971},  {69.575, 51.358},
       {77.786, 58.573}, {90.526, 67.081}, {105.973, 63.801}, {100.400, 47.326}, {94.567, 39.913},
@@ -38,7 +38,7 @@ inline Curve butterfly() {
   weights[14] = weights[36] = 5.0;
   weights[15] = weights[35] = 3.0;
   weights[17] = weights[33] = 1.1;
-  return *Curve::create(3, std::move(knots), std::move(points), std::move(weights));
+  return *geometry::Curve::create(3, std::move(knots), std::move(points), std::move(weights));
 }
 
-}  // namespace twin::geometry::test
+}  // namespace twin::test

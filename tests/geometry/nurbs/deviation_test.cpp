@@ -44,7 +44,7 @@ TEST(Deviation, BoundIsNeverBelowDenseSamples) {
       points.emplace_back(points.back() + random.uniform(smallest, 1.0) * direction);
     }
     const EndCondition end{round % 5 == 0, random.vector(1), random.vector(3)};
-    ASSERT_TRUE(fitter.fit(points, end, {}, curve));
+    ASSERT_EQ(fitter.fit(points, end, {}, curve), FitResult::kFitted);
     const double bound = deviation_bound(curve, points, fitter.parameters());
     ASSERT_GE(bound, sampled_deviation(curve, points, fitter.parameters(), 200)) << round;
   }
@@ -62,7 +62,7 @@ TEST(Deviation, BoundIsWithinTenPercentOnSmoothRuns) {
       points.emplace_back(radius * std::cos(angle), 0.7 * radius * std::sin(angle), 0.0);
       angle += random.uniform(0.07, 0.1);
     }
-    ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+    ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
     const double sampled = sampled_deviation(curve, points, fitter.parameters(), 100);
     const double bound = deviation_bound(curve, points, fitter.parameters());
     ASSERT_GE(bound, sampled);
@@ -78,7 +78,7 @@ TEST(Deviation, OfACircleIsItsSagitta) {
   Fitter fitter;
   Curve curve;
   const EndCondition begin{true, Vec3::UnitY(), -Vec3::UnitX()};
-  ASSERT_TRUE(fitter.fit(points, begin, {}, curve));
+  ASSERT_EQ(fitter.fit(points, begin, {}, curve), FitResult::kFitted);
   const double sagitta = 1.0 - std::cos(0.05);
   const double bound = deviation_bound(curve, points, fitter.parameters());
   EXPECT_GT(bound, sagitta);
@@ -93,7 +93,7 @@ TEST(Deviation, OfAStraightRunIsZero) {
   }
   Fitter fitter;
   Curve curve;
-  ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+  ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
   EXPECT_LT(deviation_bound(curve, points, fitter.parameters()), 1e-10);
 }
 
@@ -104,7 +104,7 @@ TEST(Deviation, CountsWhatRunsOutPastAnEndOfTheChord) {
   const EndCondition backwards{true, {-3, 0, 0}, Vec3::Zero()};
   Fitter fitter;
   Curve curve;
-  ASSERT_TRUE(fitter.fit(points, backwards, {}, curve));
+  ASSERT_EQ(fitter.fit(points, backwards, {}, curve), FitResult::kFitted);
   const double sampled = sampled_deviation(curve, points, fitter.parameters(), 1000);
   EXPECT_GT(sampled, 0.1);
   EXPECT_GE(deviation_bound(curve, points, fitter.parameters()), sampled);

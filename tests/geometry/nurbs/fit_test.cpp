@@ -37,7 +37,7 @@ TEST(Fit, PassesThroughAllPointsAtTheirChordLengths) {
     const auto end = random_condition(random, round % 4 < 2);
     const int least = begin.clamped || end.clamped ? 1 : 3;
     const auto points = random_run(random, least + round % 21);
-    ASSERT_TRUE(fitter.fit(points, begin, end, curve));
+    ASSERT_EQ(fitter.fit(points, begin, end, curve), FitResult::kFitted);
     const auto& l = fitter.parameters();
     ASSERT_EQ(l.size(), points.size());
     ASSERT_EQ(curve.u_min(), 0.0);
@@ -58,7 +58,8 @@ TEST(Fit, HasTheDerivativesPrescribedAtClampedEnds) {
   for (int round = 0; round < 300; ++round) {
     const auto begin = random_condition(random, true);
     const auto end = random_condition(random, true);
-    ASSERT_TRUE(fitter.fit(random_run(random, 1 + round % 20), begin, end, curve));
+    ASSERT_EQ(fitter.fit(random_run(random, 1 + round % 20), begin, end, curve),
+              FitResult::kFitted);
     const Derivatives first = curve.derivatives(curve.u_min());
     const Derivatives last = curve.derivatives(curve.u_max());
     ASSERT_LT((first.first - begin.first).norm(), 1e-11);
@@ -74,7 +75,7 @@ TEST(Fit, HasTheControlPointsOfADenseSolutionWithPivots) {
   Curve curve;
   for (int n = 3; n < 40; ++n) {
     const auto points = random_run(random, n);
-    ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+    ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
     Eigen::MatrixXd matrix(n + 1, n + 1);
     Eigen::MatrixXd right(n + 1, 3);
     for (int r = 0; r <= n; ++r) {
@@ -107,7 +108,7 @@ TEST(Fit, ReproducesACubicPolynomialOfItsParameter) {
   Curve curve;
   for (const EndCondition& begin : {EndCondition{}, condition(0.0)}) {
     for (const EndCondition& end : {EndCondition{}, condition(1.9)}) {
-      ASSERT_TRUE(fitter.fit(points, begin, end, curve));
+      ASSERT_EQ(fitter.fit(points, begin, end, curve), FitResult::kFitted);
       for (double u = 0.0; u <= curve.u_max(); u += 0.01) {
         const Derivatives at = curve.derivatives(u);
         ASSERT_NEAR(at.position.x(), u, 1e-10);
@@ -130,7 +131,7 @@ TEST(Fit, OfCollinearPointsIsTheStraightLine) {
   const EndCondition ahead{true, direction, Vec3::Zero()};
   for (const auto& [begin, end] :
        {std::pair{EndCondition{}, EndCondition{}}, {ahead, EndCondition{}}, {ahead, ahead}}) {
-    ASSERT_TRUE(fitter.fit(points, begin, end, curve));
+    ASSERT_EQ(fitter.fit(points, begin, end, curve), FitResult::kFitted);
     for (int i = 0; i <= 1000; ++i) {
       const double u = 0.001 * i * curve.u_max();
       const Derivatives at = curve.derivatives(u);
@@ -144,7 +145,7 @@ TEST(Fit, OfPointsOnAnAxisStaysOnTheAxis) {
   Fitter fitter;
   Curve curve;
   const std::vector<Vec3> points = {{0, 1, 0}, {0.3, 1, 0}, {0.4, 1, 0}, {2, 1, 0}, {2.2, 1, 0}};
-  ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+  ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
   for (const Vec3& p : curve.control_points()) {
     EXPECT_NEAR(p.y(), 1.0, 1e-14);
     EXPECT_EQ(p.z(), 0.0);
@@ -162,7 +163,7 @@ TEST(Fit, StaysFiniteWithVeryUnequalChords) {
       points.emplace_back(points.back() +
                           chord * Vec3(1, random.uniform(-0.2, 0.2), 0).normalized());
     }
-    ASSERT_TRUE(fitter.fit(points, {}, {}, curve));
+    ASSERT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
     for (std::size_t i = 0; i < points.size(); ++i) {
       ASSERT_LT((curve.position(fitter.parameters()[i]) - points[i]).norm(), 1e-11);
     }
@@ -182,7 +183,7 @@ TEST(Fit, ConvergesWithTheFourthPowerOfTheChord) {
       const double a = 2.0 * i / n;
       points.emplace_back(std::cos(a), std::sin(a), 0.0);
     }
-    EXPECT_TRUE(fitter.fit(points, {}, {}, curve));
+    EXPECT_EQ(fitter.fit(points, {}, {}, curve), FitResult::kFitted);
     double worst = 0.0;
     for (double u = 0.3 * curve.u_max(); u < 0.7 * curve.u_max(); u += 1e-3) {
       worst = std::max(worst, std::abs(curve.position(u).norm() - 1.0));
@@ -197,19 +198,21 @@ TEST(Fit, RefusesTooFewCoincidentOrUndefinedPoints) {
   Curve curve;
   const EndCondition clamped{true, Vec3::UnitX(), Vec3::Zero()};
   const std::vector<Vec3> four = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}};
-  ASSERT_TRUE(fitter.fit(four, {}, {}, curve));
+  ASSERT_EQ(fitter.fit(four, {}, {}, curve), FitResult::kFitted);
   const auto before = curve.control_points();
-  EXPECT_FALSE(fitter.fit(std::span(four).first(3), {}, {}, curve));
-  EXPECT_FALSE(fitter.fit(std::span(four).first(1), clamped, clamped, curve));
-  EXPECT_FALSE(fitter.fit({}, clamped, clamped, curve));
-  EXPECT_FALSE(fitter.fit(std::vector<Vec3>{four[0], four[1], four[1], four[3]}, {}, {}, curve));
+  EXPECT_EQ(fitter.fit(std::span(four).first(3), {}, {}, curve), FitResult::kTooFewPoints);
+  EXPECT_EQ(fitter.fit(std::span(four).first(1), clamped, clamped, curve),
+            FitResult::kTooFewPoints);
+  EXPECT_EQ(fitter.fit({}, clamped, clamped, curve), FitResult::kTooFewPoints);
+  EXPECT_EQ(fitter.fit(std::vector<Vec3>{four[0], four[1], four[1], four[3]}, {}, {}, curve),
+            FitResult::kInvalidPoints);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(
-      fitter.fit(std::vector<Vec3>{four[0], four[1], {nan, 0, 0}, four[3]}, {}, {}, curve));
+  EXPECT_EQ(fitter.fit(std::vector<Vec3>{four[0], four[1], {nan, 0, 0}, four[3]}, {}, {}, curve),
+            FitResult::kInvalidPoints);
   EXPECT_EQ(curve.control_points(), before);
-  EXPECT_TRUE(fitter.fit(std::span(four).first(2), clamped, {}, curve));
-  EXPECT_TRUE(fitter.fit(std::span(four).first(2), {}, clamped, curve));
-  EXPECT_TRUE(fitter.fit(std::span(four).first(2), clamped, clamped, curve));
+  EXPECT_EQ(fitter.fit(std::span(four).first(2), clamped, {}, curve), FitResult::kFitted);
+  EXPECT_EQ(fitter.fit(std::span(four).first(2), {}, clamped, curve), FitResult::kFitted);
+  EXPECT_EQ(fitter.fit(std::span(four).first(2), clamped, clamped, curve), FitResult::kFitted);
 }
 
 }  // namespace fit_test

@@ -29,7 +29,8 @@ std::vector<Curve> fit_in_pieces(const std::vector<Vec3>& points) {
       EXPECT_TRUE(end.clamped);
     }
     Curve curve;
-    EXPECT_TRUE(fitter.fit(std::span(points).subspan(first, last - first + 1), begin, end, curve));
+    EXPECT_EQ(fitter.fit(std::span(points).subspan(first, last - first + 1), begin, end, curve),
+              FitResult::kFitted);
     curves.push_back(std::move(curve));
     begin = end;
     first = last;
@@ -94,7 +95,7 @@ TEST(Joint, AddsLittleToWhatRoundedCoordinatesDoAnyway) {
   const auto points = circle_points(201, rounded);
   Fitter fitter;
   std::vector<Curve> one(1);
-  ASSERT_TRUE(fitter.fit(points, {}, {}, one[0]));
+  ASSERT_EQ(fitter.fit(points, {}, {}, one[0]), FitResult::kFitted);
   const double alone = worst_curvature_error(one, 1.0, 0.5);
   const double joined = worst_curvature_error(fit_in_pieces(points), 1.0, 0.5);
   EXPECT_LT(joined, 1.02 * alone);
@@ -170,7 +171,7 @@ TEST(Joint, PiecesAreAsSmoothAsOneCurveThroughRoundedPoints) {
   const auto curves = fit_in_pieces(run.points);
   Fitter fitter;
   Curve one;
-  ASSERT_TRUE(fitter.fit(run.points, {}, {}, one));
+  ASSERT_EQ(fitter.fit(run.points, {}, {}, one), FitResult::kFitted);
   EXPECT_LT(run.worst([&](auto i, auto part) { return curvature_in_pieces(run, curves, i, part); },
                       [&](auto i, auto part) {
                         const double u = run.l[i] + part * (run.l[i + 1] - run.l[i]);

@@ -4,7 +4,7 @@
 
 /// The definitions themselves, evaluated as they stand: slow, and sharing nothing with the code
 /// under test.
-namespace twin::geometry::test {
+namespace twin::test {
 
 /// N_{i,p}(u) [WY09, Eqs. 9, 10], 0/0 = 0; the last span that is not empty is taken as closed.
 inline double naive_basis(const std::vector<double>& knots, int i, int p, double u) {
@@ -19,7 +19,7 @@ inline double naive_basis(const std::vector<double>& knots, int i, int p, double
 }
 
 /// C(u) [WY09, Eq. 7].
-inline Vec3 naive_position(const Curve& c, double u) {
+inline Vec3 naive_position(const geometry::Curve& c, double u) {
   Vec3 sum = Vec3::Zero();
   double w = 0.0;
   for (int i = 0; i < static_cast<int>(c.control_points().size()); ++i) {
@@ -31,4 +31,4 @@ inline Vec3 naive_position(const Curve& c, double u) {
   return sum / w;
 }
 
-}  // namespace twin::geometry::test
+}  // namespace twin::test

@@ -6,7 +6,7 @@
 
 #include "geometry/nurbs/curve.hpp"
 
-namespace twin::geometry::test {
+namespace twin::test {
 
 /// Curves and parameters from a fixed seed.
 class RandomCurves {
@@ -35,7 +35,7 @@ class RandomCurves {
     return inner;
   }
 
-  Curve curve(int degree, int count, bool rational) {
+  geometry::Curve curve(int degree, int count, bool rational) {
     std::vector<Vec3> points;
     std::vector<double> weights;
     for (int i = 0; i < count; ++i) {
@@ -44,11 +44,12 @@ class RandomCurves {
         weights.push_back(uniform(0.3, 3.0));
       }
     }
-    return *Curve::create(degree, knots(degree, count), std::move(points), std::move(weights));
+    return *geometry::Curve::create(degree, knots(degree, count), std::move(points),
+                                    std::move(weights));
   }
 
  private:
   std::mt19937 random_;
 };
 
-}  // namespace twin::geometry::test
+}  // namespace twin::test

@@ -5,23 +5,18 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::mujoco {
 namespace model_test {
 
+using test::content;
 using ::testing::HasSubstr;
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// Configures a table from MJCF text and returns the error.
 Error error_of(const std::string& mjcf) {
@@ -31,7 +26,7 @@ Error error_of(const std::string& mjcf) {
   TableParams params;
   params.model = file;
   MujocoMachine machine(params);
-  const Expected<void> result = machine.configure(1e-3);
+  const Expected<void> result = checked(machine.configure(1e-3));
   std::filesystem::remove(file);
   EXPECT_FALSE(result);
   if (result) {
@@ -50,7 +45,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-std::string table_text() { return text_of(testing::mjcf_file("xy_table.xml")); }
+std::string table_text() { return content(test::mjcf_file("xy_table.xml")); }
 
 TEST(Model, MissingFileIsNamed) {
   const auto model = load_model("/nowhere/table.xml");
@@ -91,14 +86,14 @@ TEST(Model, HingeInPlaceOfASlideIsRefused) {
 }
 
 TEST(Model, TableOfTheRepositoryHasThreeJointsAndNoGeomsInPhysics) {
-  const auto model = load_model(testing::mjcf_file("xy_table.xml"));
+  const auto model = load_model(test::mjcf_file("xy_table.xml"));
   ASSERT_TRUE(model);
   EXPECT_EQ((*model)->nv, 3);
   EXPECT_EQ((*model)->ngeom, 0);
 }
 
 TEST(Model, ErrorsOfMujocoBecomeExceptions) {
-  install_mujoco_handlers();
+  ASSERT_TRUE(MujocoLibrary::load());
   EXPECT_THROW(mju_error("told to fail"), MujocoError);
 }
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/hal/position_loop.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/position_loop.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::mujoco {
 namespace mujoco_machine_test {
 
-using testing::default_table;
+using test::default_table;
 
 constexpr double kPeriod = 1e-3;  // [s]
 
@@ -34,8 +34,8 @@ Outputs volts(double x, double y) {
 TEST(MujocoMachine, OneVoltIsTheScaledSpeedOnBothAxes) {
   TableParams params = default_table();
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(0.6, -0.3), 1000, inputs);
   EXPECT_NEAR(machine.info().mm_per_s_per_volt[kX], 500.0 / 60.0 * 10.0, 1e-9);
@@ -49,22 +49,21 @@ TEST(MujocoMachine, ReversedScalesReverseBothTheWireAndTheCount) {
   params.axis[kX].drive.vref_scale_rpm_per_V = -500.0;
   params.axis[kY].encoder.mm_per_count = -0.010;
   MujocoMachine machine(params);
-  const auto rows = testing::run_loop(
-      machine, testing::default_gains(), kPeriod, 0.5,
-      [](double t) { return testing::on_circle(10.0, testing::smooth_start(t, 20.0, 0.1)); });
+  const auto rows = test::run_loop(machine, test::default_gains(), kPeriod, 0.5, [](double t) {
+    return test::on_circle(10.0, test::smooth_start(t, 20.0, 0.1));
+  });
   EXPECT_LT(
-      testing::spread(rows, 0, [](const testing::Row& r) { return testing::circle_error(r, 10.0); })
-          .max,
+      test::spread(rows, 0, [](const test::Row& r) { return test::circle_error(r, 10.0); }).max,
       0.04);
 }
 
 TEST(MujocoMachine, OutputsArriveAfterTheOutputDelay) {
-  TableParams params = testing::faultless_table();
+  TableParams params = test::faultless_table();
   params.axis[kX].drive.output_delay = 3e-3;
   params.axis[kX].drive.ready_delay = 0.0;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(1.0, 0.0), 3, inputs);
   EXPECT_EQ(machine.velocity(kX), 0.0);
@@ -76,8 +75,8 @@ TEST(MujocoMachine, RunsIntoItsSwitchStopsAndComesBack) {
   TableParams params = default_table();
   params.axis[kX].travel = 20.0;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(1.0, 0.0), 600, inputs);
   EXPECT_TRUE(inputs.limit_positive[kX]);
@@ -92,8 +91,8 @@ TEST(MujocoMachine, RunsIntoItsSwitchStopsAndComesBack) {
 
 TEST(MujocoMachine, BlockedAxisRaisesAnAlarmAndActivationClearsIt) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   machine.set_external_force(kY, 2000.0);
   pass(machine, volts(0.0, -2.0), 1000, inputs);
@@ -102,7 +101,7 @@ TEST(MujocoMachine, BlockedAxisRaisesAnAlarmAndActivationClearsIt) {
   EXPECT_FALSE(inputs.servo_ready[kY]);
   machine.set_external_force(kY, 0.0);
   machine.deactivate();
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.activate()));
   pass(machine, volts(0.0, 0.0), 100, inputs);
   EXPECT_FALSE(inputs.alarm[kY]);
   EXPECT_TRUE(inputs.servo_ready[kY]);
@@ -110,14 +109,14 @@ TEST(MujocoMachine, BlockedAxisRaisesAnAlarmAndActivationClearsIt) {
 
 TEST(MujocoMachine, CountsAndTruthStartAgainWhereItIsActivated) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(0.5, 0.5), 300, inputs);
   pass(machine, volts(0.0, 0.0), 300, inputs);
   EXPECT_GT(inputs.counts[kX], 500);
   machine.deactivate();
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.activate()));
   EXPECT_EQ(machine.truth().table_position[kX], 0.0);
   pass(machine, volts(0.0, 0.0), 1, inputs);
   EXPECT_EQ(inputs.counts[kX], 0);
@@ -125,8 +124,8 @@ TEST(MujocoMachine, CountsAndTruthStartAgainWhereItIsActivated) {
 
 TEST(MujocoMachine, DeactivatedTableCoastsToRestOnItsFriction) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   pass(machine, volts(0.6, 0.6), 500, inputs);
   machine.deactivate();
@@ -140,8 +139,8 @@ TEST(MujocoMachine, DeactivatedTableCoastsToRestOnItsFriction) {
 
 TEST(MujocoMachine, PenFollowsItsReferenceWithoutOvershoot) {
   MujocoMachine machine(default_table());
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Outputs outputs = volts(0.0, 0.0);
   outputs.position_reference[2] = 15.0;
   Inputs inputs;
@@ -156,13 +155,13 @@ TEST(MujocoMachine, PenFollowsItsReferenceWithoutOvershoot) {
 
 TEST(MujocoMachine, UnstablePhysicsIsAnErrorWithTheTimeAndWhatToDo) {
   TableParams params = default_table();
-  params.model = testing::mjcf_file("xy_table_compliant.xml");
+  params.model = test::mjcf_file("xy_table_compliant.xml");
   params.physics_step = 1e-3;  // far too coarse for the screw's resonance
   params.axis[kX].screw.stiffness = 1e6;
   params.axis[kX].drive.velocity_gain_Hz = 100.0;
   MujocoMachine machine(params);
-  ASSERT_TRUE(machine.configure(kPeriod));
-  ASSERT_TRUE(machine.activate());
+  ASSERT_TRUE(checked(machine.configure(kPeriod)));
+  ASSERT_TRUE(checked(machine.activate()));
   Inputs inputs;
   Status status = Status::kOk;
   for (int k = 0; k < 5000 && status == Status::kOk; ++k) {
@@ -173,15 +172,15 @@ TEST(MujocoMachine, UnstablePhysicsIsAnErrorWithTheTimeAndWhatToDo) {
   EXPECT_EQ(machine.state(), State::kInactive);
   EXPECT_THAT(machine.last_error(), ::testing::HasSubstr("unstable"));
   EXPECT_THAT(machine.last_error(), ::testing::HasSubstr("table.physics_step_ms"));
-  EXPECT_FALSE(machine.activate()) << "must be configured again";
-  EXPECT_FALSE(machine.configure(1e-3) && machine.read(inputs) != Status::kOk);
+  EXPECT_FALSE(checked(machine.activate())) << "must be configured again";
+  EXPECT_FALSE(checked(machine.configure(1e-3)) && machine.read(inputs) != Status::kOk);
 }
 
 TEST(MujocoMachine, SaddleLighterThanWhatItCarriesIsRefused) {
   TableParams params = default_table();
   params.axis[kY].moving_mass = 10.0;
   MujocoMachine machine(params);
-  const auto result = machine.configure(kPeriod);
+  const auto result = checked(machine.configure(kPeriod));
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().message, ::testing::HasSubstr("table.y.moving_mass_kg"));
 }
@@ -189,12 +188,12 @@ TEST(MujocoMachine, SaddleLighterThanWhatItCarriesIsRefused) {
 // A push of known force on the free, frictionless slide shows the mass that MuJoCo really moves.
 TEST(MujocoMachine, SlidesHaveTheMassOfTheParametersWithTheRotor) {
   for (const char* model : {"xy_table.xml", "xy_table_compliant.xml"}) {
-    TableParams params = testing::faultless_table();
-    params.model = testing::mjcf_file(model);
+    TableParams params = test::faultless_table();
+    params.model = test::mjcf_file(model);
     params.axis[kX].moving_mass = 7.0;
     params.axis[kY].moving_mass = 26.0;
     MujocoMachine machine(params);
-    ASSERT_TRUE(machine.configure(kPeriod));
+    ASSERT_TRUE(checked(machine.configure(kPeriod)));
     Inputs inputs;
     for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
       machine.set_external_force(static_cast<Axis>(axis), 10.0);

@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/position_loop.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/position_loop.hpp"
+#include "tests/support/table_files.hpp"
 
 // The closed loop on the table as a whole.
 namespace twin::hal::mujoco {
 namespace table_accuracy_test {
 
-using namespace testing;  // NOLINT(google-build-using-namespace): helpers of this folder
+using namespace test;  // NOLINT(google-build-using-namespace): helpers of this folder
 
 constexpr double kPeriod = 1e-3;  // [s]
 

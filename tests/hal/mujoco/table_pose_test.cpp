@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/mujoco/model.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::mujoco {
 namespace table_pose_test {
@@ -11,7 +11,7 @@ namespace table_pose_test {
 class Scene : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto loaded = load_model(testing::mjcf_file("scene.xml"));
+    auto loaded = load_model(test::mjcf_file("scene.xml"));
     ASSERT_TRUE(loaded) << to_string(loaded.error());
     model = std::move(*loaded);
     auto made = make_data(*model);

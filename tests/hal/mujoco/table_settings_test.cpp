@@ -6,7 +6,7 @@
 #include <toml++/toml.h>
 #include <set>
 
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::mujoco {
 namespace table_settings_test {
@@ -32,7 +32,7 @@ void expect_section(const toml::table& file, const std::string& name,
 }
 
 void expect_file(const std::string& file_name) {
-  const toml::table file = toml::parse_file(testing::mjcf_file(file_name));
+  const toml::table file = toml::parse_file(test::mjcf_file(file_name));
   TableParams params;
   expect_section(file, "table", table_settings(params), {"model", "x", "y"});
   expect_section(file, "table.x", axis_settings(params.axis[kX]), {"dac_bits"});

@@ -2,7 +2,7 @@
 
 #include <unistd.h>
 
-namespace twin::hal::rig::testing {
+namespace twin::test {
 
 /// The process without root's rights as long as this lives.
 class AsNobody {
@@ -21,4 +21,4 @@ class AsNobody {
   bool is_changed_;
 };
 
-}  // namespace twin::hal::rig::testing
+}  // namespace twin::test

@@ -167,12 +167,12 @@ TEST_F(Daqnavi, ReadAndWriteAllocateNothing) {
   card->is_recording = false;
   CardInputs inputs;
   int failures = 0;
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   for (int k = 0; k < 100; ++k) {
     failures += cards->read(inputs) != Status::kOk;
     failures += cards->write({}) != Status::kOk;
   }
-  EXPECT_EQ(hal::testing::allocations() - before, 0);
+  EXPECT_EQ(test::allocations() - before, 0);
   EXPECT_EQ(failures, 0);
 }
 

@@ -8,7 +8,7 @@
 
 #include "hal/rig/io_port/io_port.hpp"
 
-namespace twin::hal::rig::testing {
+namespace twin::test {
 
 /// One access to a register.
 struct Access {
@@ -25,7 +25,7 @@ inline Access wrote(std::uint32_t offset, int bits, std::uint32_t value) {
 }
 
 /// A port that records what is written and answers reads from a table. Recording allocates.
-class FakePort final : public io_port::IoPort {
+class FakePort final : public hal::rig::io_port::IoPort {
  public:
   std::map<std::uint32_t, std::uint32_t> answers;  ///< what a read at an offset gives; else 0
   std::function<void(const Access&)> on_write;     ///< told of each write, may be empty
@@ -84,4 +84,4 @@ class FakePort final : public io_port::IoPort {
   }
 };
 
-}  // namespace twin::hal::rig::testing
+}  // namespace twin::test

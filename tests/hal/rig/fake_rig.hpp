@@ -9,12 +9,12 @@
 #include "hal/rig/register_cards.hpp"
 #include "hal/rig/rig_machine.hpp"
 
-namespace twin::hal::rig::testing {
+namespace twin::test {
 
 /// A port that hands everything to another, which outlives it.
-class BorrowedPort final : public io_port::IoPort {
+class BorrowedPort final : public hal::rig::io_port::IoPort {
  public:
-  explicit BorrowedPort(io_port::IoPort& port) : port_(port) {}
+  explicit BorrowedPort(hal::rig::io_port::IoPort& port) : port_(port) {}
   std::uint8_t read8(std::uint32_t o) noexcept override { return port_.read8(o); }
   std::uint16_t read16(std::uint32_t o) noexcept override { return port_.read16(o); }
   std::uint32_t read32(std::uint32_t o) noexcept override { return port_.read32(o); }
@@ -24,15 +24,15 @@ class BorrowedPort final : public io_port::IoPort {
   int error() const noexcept override { return port_.error(); }
 
  private:
-  io_port::IoPort& port_;
+  hal::rig::io_port::IoPort& port_;
 };
 
-struct FakeBench final : Bench {
+struct FakeBench final : hal::rig::Bench {
   int advances = 0;
   bool is_broken = false;
   double period = 0.0;
   double pen = 0.0;
-  Truth at;
+  hal::Truth at;
 
   Expected<void> power_on(double p) override {
     period = p;
@@ -42,12 +42,12 @@ struct FakeBench final : Bench {
     ++advances;
     return !is_broken;
   }
-  Truth truth() const noexcept override { return at; }
+  hal::Truth truth() const noexcept override { return at; }
   void set_pen_reference(double z) noexcept override { pen = z; }
   std::string last_error() const override { return "the bench broke"; }
 };
 
-struct FakeWatch final : Watch {
+struct FakeWatch final : hal::rig::Watch {
   int arms = 0;
   int beats = 0;
   int disarms = 0;
@@ -74,26 +74,26 @@ class FakeRig : public ::testing::Test {
 
   FakeRig() { pci1716.answers[kDigital] = kHealthy; }
 
-  std::unique_ptr<RigMachine> make(bool with_bench = true) {
-    const TableScales table{{0.005, -0.002}, {80.0, 90.0}};
-    return std::make_unique<RigMachine>(
+  std::unique_ptr<hal::rig::RigMachine> make(bool with_bench = true) {
+    const hal::rig::TableScales table{{0.005, -0.002}, {80.0, 90.0}};
+    return std::make_unique<hal::rig::RigMachine>(
         settings, table,
         [this] {
-          return RegisterCards::open(std::make_unique<BorrowedPort>(pci1716),
-                                     std::make_unique<BorrowedPort>(pci1784), settings);
+          return hal::rig::RegisterCards::open(std::make_unique<BorrowedPort>(pci1716),
+                                               std::make_unique<BorrowedPort>(pci1784), settings);
         },
         with_bench ? bench : nullptr, &watch);
   }
   /// Active, with volts at the drives and the servos on.
-  std::unique_ptr<RigMachine> running(bool with_bench = true) {
+  std::unique_ptr<hal::rig::RigMachine> running(bool with_bench = true) {
     auto machine = make(with_bench);
-    EXPECT_TRUE(machine->configure(kPeriod));
-    const auto active = machine->activate();
+    EXPECT_TRUE(checked(machine->configure(kPeriod)));
+    const auto active = checked(machine->activate());
     EXPECT_TRUE(active) << active.error().message;
-    Outputs outputs;
+    hal::Outputs outputs;
     outputs.volts = {1.0, -2.0};
     outputs.servo_on = {true, true};
-    EXPECT_EQ(machine->write(outputs), Status::kOk);
+    EXPECT_EQ(machine->write(outputs), hal::Status::kOk);
     EXPECT_FALSE(is_safe());
     return machine;
   }
@@ -105,8 +105,8 @@ class FakeRig : public ::testing::Test {
   FakePort pci1716, pci1784;
   std::shared_ptr<FakeBench> bench = std::make_shared<FakeBench>();
   FakeWatch watch;
-  RigSettings settings;
-  Inputs inputs;
+  hal::rig::RigSettings settings;
+  hal::Inputs inputs;
 };
 
-}  // namespace twin::hal::rig::testing
+}  // namespace twin::test

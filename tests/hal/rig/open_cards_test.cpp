@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "hal/rig/register_cards.hpp"
-#include "sysfs_tree.hpp"
+#include "tests/support/sysfs_tree.hpp"
 
 namespace twin::hal::rig {
 namespace open_cards_test {
 
+using test::SysfsTree;
 using ::testing::HasSubstr;
-using testing::SysfsTree;
 
 constexpr const char* kAnalogue = "0000:03:00.0";
 constexpr const char* kCounter = "0000:03:01.0";

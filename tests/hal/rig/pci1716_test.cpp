@@ -10,10 +10,10 @@
 namespace twin::hal::rig {
 namespace pci1716_test {
 
-using testing::Access;
+using test::Access;
+using test::FakePort;
+using test::wrote;
 using ::testing::ElementsAre;
-using testing::FakePort;
-using testing::wrote;
 
 constexpr std::uint16_t kSafe = 0x000A;
 

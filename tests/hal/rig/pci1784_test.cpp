@@ -10,10 +10,10 @@
 namespace twin::hal::rig {
 namespace pci1784_test {
 
-using testing::Access;
+using test::Access;
+using test::FakePort;
+using test::wrote;
 using ::testing::ElementsAre;
-using testing::FakePort;
-using testing::wrote;
 
 using Counts = std::array<std::int64_t, kCounters>;
 

@@ -12,7 +12,7 @@ namespace rig_faults_test {
 
 using ::testing::HasSubstr;
 
-using RigFaults = testing::FakeRig;
+using RigFaults = test::FakeRig;
 
 TEST_F(RigFaults, AVanishedPci1716IsNamed) {
   const auto machine = running();
@@ -29,9 +29,9 @@ TEST_F(RigFaults, AVanishedPci1784IsNamed) {
   EXPECT_EQ(machine->read(inputs), Status::kError);
   EXPECT_EQ(machine->last_error(), "the PCI-1784 no longer answers: its registers read all ones");
   EXPECT_TRUE(is_safe());
-  EXPECT_FALSE(machine->activate());
+  EXPECT_FALSE(checked(machine->activate()));
   pci1784.is_gone = false;
-  EXPECT_TRUE(machine->activate()) << "plugged in again";
+  EXPECT_TRUE(checked(machine->activate())) << "plugged in again";
   EXPECT_EQ(machine->last_error(), "");
 }
 
@@ -69,7 +69,7 @@ TEST_F(RigFaults, VoltsThatAreNotFiniteReachNoConverter) {
       EXPECT_EQ(machine->write(outputs), Status::kError);
       EXPECT_THAT(machine->last_error(), HasSubstr("not a finite number"));
       EXPECT_TRUE(is_safe());
-      EXPECT_TRUE(machine->activate());
+      EXPECT_TRUE(checked(machine->activate()));
     }
   }
 }
@@ -80,13 +80,13 @@ TEST_F(RigFaults, ABenchThatBreaksIsAnError) {
   EXPECT_EQ(machine->read(inputs), Status::kError);
   EXPECT_EQ(machine->last_error(), "the bench broke");
   EXPECT_TRUE(is_safe());
-  EXPECT_FALSE(make()->configure(kPeriod));
+  EXPECT_FALSE(checked(make()->configure(kPeriod)));
 }
 
 TEST_F(RigFaults, HeartbeatsBeginWithTheFirstWriteAndEndAfterTheOutputsAreSafe) {
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
+  ASSERT_TRUE(checked(machine->activate()));
   ASSERT_EQ(machine->read(inputs), Status::kOk);
   EXPECT_EQ(watch.arms + watch.beats, 0);
   for (int k = 0; k < 5; ++k) {
@@ -98,7 +98,7 @@ TEST_F(RigFaults, HeartbeatsBeginWithTheFirstWriteAndEndAfterTheOutputsAreSafe) 
   machine->deactivate();
   machine->deactivate();
   EXPECT_EQ(watch.disarms, 1);
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->activate()));
   ASSERT_EQ(machine->write({}), Status::kOk);
   EXPECT_EQ(watch.arms, 2);
 }
@@ -112,10 +112,10 @@ TEST_F(RigFaults, NothingMovesAfterTheGuardHasActed) {
   outputs.servo_on = {true, true};
   EXPECT_EQ(machine->write(outputs), Status::kError);
   EXPECT_THAT(machine->last_error(), HasSubstr("the guard has made the outputs safe"));
-  for (const testing::Access& access : pci1716.writes()) {
+  for (const test::Access& access : pci1716.writes()) {
     EXPECT_TRUE(access.value == 0x8000 || access.value == 0x0101 || access.value == 0);
   }
-  EXPECT_FALSE(machine->activate());
+  EXPECT_FALSE(checked(machine->activate()));
 }
 
 TEST_F(RigFaults, AGuardThatActsDuringAWriteHasTheLastWord) {
@@ -138,12 +138,12 @@ TEST_F(RigFaults, AGuardThatHasActedIsSeenByRead) {
 TEST_F(RigFaults, CardsThatDoNotAnswerAreNotOpened) {
   pci1716.is_gone = true;
   auto machine = make();
-  auto configured = machine->configure(kPeriod);
+  auto configured = checked(machine->configure(kPeriod));
   ASSERT_FALSE(configured);
   EXPECT_THAT(configured.error().message, HasSubstr("PCI-1716"));
   pci1716.is_gone = false;
   pci1784.is_gone = true;
-  configured = machine->configure(kPeriod);
+  configured = checked(machine->configure(kPeriod));
   ASSERT_FALSE(configured);
   EXPECT_THAT(configured.error().message, HasSubstr("PCI-1784"));
   EXPECT_TRUE(is_safe());

@@ -9,10 +9,10 @@
 namespace twin::hal::rig {
 namespace rig_machine_test {
 
+using test::FakeRig;
+using test::wrote;
 using ::testing::ElementsAre;
-using testing::FakeRig;
 using ::testing::HasSubstr;
-using testing::wrote;
 
 using RigMachineTest = FakeRig;
 
@@ -32,22 +32,22 @@ TEST_F(RigMachineTest, SaysWhetherItIsSimulatedAndHasTheTablesScales) {
 
 TEST_F(RigMachineTest, ConfigureLeavesZeroVoltsAndServoOff) {
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   EXPECT_TRUE(is_safe());
   EXPECT_EQ(bench->period, kPeriod);
   EXPECT_EQ(machine->state(), State::kInactive);
   for (const double period : {0.0, -1.0, std::nan("")}) {
-    EXPECT_FALSE(machine->configure(period));
+    EXPECT_FALSE(checked(machine->configure(period)));
   }
 }
 
 TEST_F(RigMachineTest, ActivationMakesThePresentPositionZeroAndLetsNoTimePass) {
   pci1784.answers = {{0x00, 0}, {0x04, 0}};
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   pci1784.answers = {{0x00, 700}, {0x04, 0xFFFFFF00}};
   bench->at.table_position = {3.0, 4.0};
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->activate()));
   EXPECT_EQ(bench->advances, 0);
   EXPECT_TRUE(is_safe()) << "nothing is on before the first write";
   ASSERT_EQ(machine->read(inputs), Status::kOk);
@@ -79,8 +79,8 @@ TEST_F(RigMachineTest, WritesDigitalOutputsFirstAndConvertersLast) {
   settings.axis[kY].dac = 0;
   settings.axis[kX].vref_trim = 0.25;
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
+  ASSERT_TRUE(checked(machine->activate()));
   pci1716.log.clear();
   Outputs outputs;
   outputs.volts = {2.25, -5.0};
@@ -95,17 +95,17 @@ TEST_F(RigMachineTest, WritesDigitalOutputsFirstAndConvertersLast) {
 TEST_F(RigMachineTest, AnAlarmIsResetByAPulseOnItsOwnDriveOnly) {
   settings.alarm_reset_time = 3e-3;
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   pci1716.answers[kDigital] = kHealthy & ~(1 << 4);  // Y
-  pci1716.on_write = [this](const testing::Access& access) {
+  pci1716.on_write = [this](const test::Access& access) {
     if (access.offset == kDigital && (access.value & 1 << 3) != 0) {
       pci1716.answers[kDigital] = kHealthy;
     }
   };
   pci1716.log.clear();
-  ASSERT_TRUE(machine->activate());
+  ASSERT_TRUE(checked(machine->activate()));
   std::vector<std::uint32_t> outputs;
-  for (const testing::Access& access : pci1716.writes()) {
+  for (const test::Access& access : pci1716.writes()) {
     if (access.offset == kDigital) {
       outputs.push_back(access.value);
     }
@@ -118,23 +118,23 @@ TEST_F(RigMachineTest, AnAlarmIsResetByAPulseOnItsOwnDriveOnly) {
 TEST_F(RigMachineTest, RefusesADriveWhoseAlarmStays) {
   settings.alarm_reset_time = 1e-3;
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   pci1716.answers[kDigital] = kHealthy & ~(1 << 0);
-  const auto active = machine->activate();
+  const auto active = checked(machine->activate());
   ASSERT_FALSE(active);
   EXPECT_THAT(active.error().message, HasSubstr("axis x: the drive has an alarm"));
   EXPECT_THAT(active.error().message, HasSubstr("DI 0 is low"));
   EXPECT_TRUE(is_safe());
   EXPECT_EQ(machine->state(), State::kInactive);
   pci1716.answers[kDigital] = kHealthy;
-  EXPECT_TRUE(machine->activate());
+  EXPECT_TRUE(checked(machine->activate()));
 }
 
 TEST_F(RigMachineTest, RefusesAnAxisAtBothItsLimits) {
   const auto machine = make();
-  ASSERT_TRUE(machine->configure(kPeriod));
+  ASSERT_TRUE(checked(machine->configure(kPeriod)));
   pci1716.answers[kDigital] = kHealthy & ~(0b11 << 6);
-  const auto active = machine->activate();
+  const auto active = checked(machine->activate());
   ASSERT_FALSE(active);
   EXPECT_THAT(active.error().message, HasSubstr("axis y: both limit switches are off at once"));
   EXPECT_TRUE(is_safe());
@@ -150,7 +150,7 @@ TEST_F(RigMachineTest, DeactivateIsZeroVoltsFirstAndServoOffSecond) {
   EXPECT_EQ(machine->state(), State::kInactive);
   EXPECT_EQ(machine->write({}), Status::kError);
   EXPECT_TRUE(is_safe());
-  EXPECT_TRUE(machine->activate());
+  EXPECT_TRUE(checked(machine->activate()));
 }
 
 TEST_F(RigMachineTest, ItsEndIsSafe) {
@@ -161,10 +161,10 @@ TEST_F(RigMachineTest, ItsEndIsSafe) {
 TEST_F(RigMachineTest, NoCardsNoMachine) {
   RigMachine machine(
       settings, {}, [] { return fail(ErrorCode::kMachine, "no card"); }, nullptr);
-  const auto configured = machine.configure(kPeriod);
+  const auto configured = checked(machine.configure(kPeriod));
   ASSERT_FALSE(configured);
   EXPECT_EQ(configured.error().message, "no card");
-  EXPECT_FALSE(machine.activate());
+  EXPECT_FALSE(checked(machine.activate()));
   EXPECT_EQ(machine.read(inputs), Status::kError);
   machine.deactivate();
   EXPECT_EQ(machine.truth().table_position[kX], 0.0);
@@ -176,14 +176,14 @@ TEST_F(RigMachineTest, ReadAndWriteAllocateNothing) {
   int failures = 0;
   Outputs outputs;
   outputs.servo_on = {true, true};
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   for (int k = 0; k < 200; ++k) {
     failures += machine->read(inputs) != Status::kOk;
     outputs.volts = {0.01 * k, -0.02 * k};
     failures += machine->write(outputs) != Status::kOk;
     failures += machine->truth().table_position[kX] != 0.0;
   }
-  EXPECT_EQ(hal::testing::allocations() - before, 0);
+  EXPECT_EQ(test::allocations() - before, 0);
   EXPECT_EQ(failures, 0);
 }
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "emulated_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/emulated_machine.hpp"
+#include "tests/support/table_files.hpp"
 
 // The switch: the simulated table and the drivers over emulated cards are the same machine.
 namespace twin::hal::rig {
@@ -16,11 +16,11 @@ constexpr double kPeriod = 1e-3;  // [s]
 
 class Switch : public ::testing::Test {
  protected:
-  Switch() { table.model = hal::testing::mjcf_file("xy_table.xml"); }
+  Switch() { table.model = test::mjcf_file("xy_table.xml"); }
 
   std::unique_ptr<RigMachine> make() {
     bench = std::make_shared<emulator::EmulatedRig>(table, settings);
-    return testing::make_emulated(table, bench, settings);
+    return test::make_emulated(table, bench, settings);
   }
   static Outputs outputs(int k) {
     Outputs o;
@@ -33,8 +33,8 @@ class Switch : public ::testing::Test {
   void expect_same_motion() {
     mujoco::MujocoMachine simulated(table);
     const auto rig = make();
-    ASSERT_TRUE(simulated.configure(kPeriod) && simulated.activate());
-    ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
+    ASSERT_TRUE(checked(simulated.configure(kPeriod)) && checked(simulated.activate()));
+    ASSERT_TRUE(checked(rig->configure(kPeriod)) && checked(rig->activate()));
     Inputs a, b;
     for (int k = 0; k < 2000; ++k) {
       ASSERT_EQ(simulated.read(a), Status::kOk);
@@ -78,19 +78,19 @@ TEST_F(Switch, OtherPinsAndSignsAreTheSameMotion) {
 TEST_F(Switch, AnAlarmIsResetByActivationAndABrokenWireIsNot) {
   settings.alarm_reset_time = 0.01;
   const auto rig = make();
-  ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
+  ASSERT_TRUE(checked(rig->configure(kPeriod)) && checked(rig->activate()));
   Inputs inputs;
   bench->inject({emulator::FaultKind::kAlarm, kY, 0.0});
   ASSERT_EQ(rig->read(inputs), Status::kOk);
   EXPECT_FALSE(inputs.alarm[kX]);
   EXPECT_TRUE(inputs.alarm[kY]);
   rig->deactivate();
-  ASSERT_TRUE(rig->activate());
+  ASSERT_TRUE(checked(rig->activate()));
   bench->inject({emulator::FaultKind::kWireBroken, kX, 0.0});
   ASSERT_EQ(rig->read(inputs), Status::kOk);
   EXPECT_TRUE(inputs.alarm[kX]);
   rig->deactivate();
-  const auto active = rig->activate();
+  const auto active = checked(rig->activate());
   ASSERT_FALSE(active);
   EXPECT_THAT(active.error().message, HasSubstr("axis x: the drive has an alarm"));
 }
@@ -99,14 +99,14 @@ TEST_F(Switch, ACardThatVanishesIsNamed) {
   for (const emulator::FaultKind gone :
        {emulator::FaultKind::kCardGone1716, emulator::FaultKind::kCardGone1784}) {
     const auto rig = make();
-    ASSERT_TRUE(rig->configure(kPeriod) && rig->activate());
+    ASSERT_TRUE(checked(rig->configure(kPeriod)) && checked(rig->activate()));
     Inputs inputs;
     ASSERT_EQ(rig->read(inputs), Status::kOk);
     bench->inject({gone, kX, 0.0});
     EXPECT_EQ(rig->read(inputs), Status::kError);
     EXPECT_THAT(rig->last_error(),
                 HasSubstr(gone == emulator::FaultKind::kCardGone1716 ? "PCI-1716" : "PCI-1784"));
-    EXPECT_FALSE(rig->activate());
+    EXPECT_FALSE(checked(rig->activate()));
   }
 }
 

@@ -1,45 +1,27 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "following.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Not inlined: g++ would see free() meet memory of operator new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocations.hpp"
 
 namespace twin::motion {
 namespace {
 
 TEST(Allocation, IsCountedHere) {
-  const long before = allocations;
+  const std::int64_t before = test::allocations();
   delete new std::vector<double>(100);
-  EXPECT_GE(allocations - before, 1);
+  EXPECT_GE(test::allocations() - before, 1);
 }
 
 TEST(Allocation, AStepNeedsNoneWhetherMovingBrakingOrGoingOnByAnotherPlan) {
-  const auto plan = testing::mixed_plan(1e-3);
-  testing::ReplanSource source(plan, 1e-3);
+  const auto plan = test::mixed_plan(1e-3);
+  test::ReplanSource source(plan, 1e-3);
   Interpolator interpolator(source, 1e-3);
   SetPoint point;
-  long allocated = 0;
+  std::int64_t allocated = 0;
   const auto counted = [&](const auto& call) {
-    const long before = allocations;
+    const std::int64_t before = test::allocations();
     call();
-    allocated += allocations - before;
+    allocated += test::allocations() - before;
   };
   int steps = 0;
   int rests = 0;

@@ -8,23 +8,23 @@
 namespace twin::motion {
 namespace brake_test {
 
-using testing::mixed_plan;
-using testing::place_at_distance;
-using testing::PlanSource;
+using test::mixed_plan;
+using test::place_at_distance;
+using test::PlanSource;
 
 constexpr feedrate::RampLimits kLimits{2450.0, 50000.0};
 
 /// Brakes after `steps` set points. Feedrate falls within A and J by its differences, every set
 /// point is on the path, and the last one is at rest where the planned motion at this time, and
 /// quickest braking from it, end.
-void expect_brakes(const feedrate::testing::Plan& plan, double period, std::size_t steps) {
+void expect_brakes(const test::Plan& plan, double period, std::size_t steps) {
   PlanSource source(plan);
   Interpolator interpolator(source, period);
   SetPoint point;
   for (std::size_t i = 0; i <= steps; ++i) {
     ASSERT_EQ(interpolator.step(point), Status::kMoving);
   }
-  double distance = testing::distance_at(plan, static_cast<double>(steps) * period);
+  double distance = test::distance_at(plan, static_cast<double>(steps) * period);
   const double room = interpolator.braking_distance(kLimits);
   const Vec3 end = place_at_distance(plan, distance + room);
   interpolator.brake(kLimits);
@@ -54,7 +54,7 @@ void expect_brakes(const feedrate::testing::Plan& plan, double period, std::size
 TEST(InterpolatorBrake, ComesToRestOnThePathFromEveryPeriod) {
   for (const double period : {1e-3, 4e-3}) {
     const auto plan = mixed_plan(period);
-    const auto count = testing::follow(plan, period).size();
+    const auto count = test::follow(plan, period).size();
     for (std::size_t steps = 0; steps + 1 < count; ++steps) {
       ASSERT_NO_FATAL_FAILURE(expect_brakes(plan, period, steps))
           << "period " << period << " step " << steps << " of " << count;
@@ -65,8 +65,8 @@ TEST(InterpolatorBrake, ComesToRestOnThePathFromEveryPeriod) {
 TEST(InterpolatorBrake, ComesToRestOnThePathOfRandomPrograms) {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
-    const auto plan = feedrate::testing::plan(feedrate::testing::random_program(random, 6));
-    const auto count = testing::follow(plan, 1e-3).size();
+    const auto plan = test::plan(test::random_program(random, 6));
+    const auto count = test::follow(plan, 1e-3).size();
     for (int k = 0; k < 10 && count > 2; ++k) {
       const std::size_t steps = random() % (count - 1);
       ASSERT_NO_FATAL_FAILURE(expect_brakes(plan, 1e-3, steps))

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 
-namespace twin::motion::testing {
+namespace twin::test {
 namespace {
 
 using feedrate::PlannedSegment;
@@ -44,7 +44,7 @@ void PlanSource::release(const PlannedSegment* segment) noexcept {
   released_ += segment == &plan_.segments[released_] ? 1 : 0;
 }
 
-ReplanSource::ReplanSource(const feedrate::testing::Plan& plan, double period, double scale)
+ReplanSource::ReplanSource(const Plan& plan, double period, double scale)
     : period_(period), scale_(scale), plans_{plan.segments} {
   for (const PlannedSegment& planned : plan.segments) {
     path_.push_back(planned.segment);
@@ -79,22 +79,22 @@ void ReplanSource::adopt(std::int64_t plan) noexcept {
   next_ = 0;
 }
 
-std::vector<SetPoint> follow(const feedrate::testing::Plan& plan, double period,
-                             std::size_t starve_every, const InterpolatorSettings& settings) {
+std::vector<motion::SetPoint> follow(const Plan& plan, double period, std::size_t starve_every,
+                                     const motion::InterpolatorSettings& settings) {
   PlanSource source(plan, starve_every);
-  Interpolator interpolator(source, period, settings);
-  std::vector<SetPoint> points;
-  SetPoint point;
-  for (Status status = Status::kMoving; status != Status::kDone;) {
+  motion::Interpolator interpolator(source, period, settings);
+  std::vector<motion::SetPoint> points;
+  motion::SetPoint point;
+  for (motion::Status status = motion::Status::kMoving; status != motion::Status::kDone;) {
     status = interpolator.step(point);
-    if (status == Status::kMoving) {
+    if (status == motion::Status::kMoving) {
       points.push_back(point);
     }
   }
   return points;
 }
 
-double distance_at(const feedrate::testing::Plan& plan, double time) {
+double distance_at(const Plan& plan, double time) {
   double before = 0.0;
   for (const PlannedSegment& planned : plan.segments) {
     for (const feedrate::Phase& phase : planned.phases) {
@@ -108,7 +108,7 @@ double distance_at(const feedrate::testing::Plan& plan, double time) {
   return before;
 }
 
-Vec3 place_at_distance(const feedrate::testing::Plan& plan, double distance) {
+Vec3 place_at_distance(const Plan& plan, double distance) {
   for (const PlannedSegment& planned : plan.segments) {
     if (distance <= planned.segment.length) {
       return place_on(planned.segment, distance);
@@ -118,32 +118,30 @@ Vec3 place_at_distance(const feedrate::testing::Plan& plan, double distance) {
   return plan.segments.back().segment.end.position;
 }
 
-Vec3 place_at(const feedrate::testing::Plan& plan, double time) {
+Vec3 place_at(const Plan& plan, double time) {
   return place_at_distance(plan, distance_at(plan, time));
 }
 
-feedrate::testing::Plan smooth_plan(double period) {
-  feedrate::testing::PlanSettings settings;
+Plan smooth_plan(double period) {
+  PlanSettings settings;
   settings.period = period;
-  return feedrate::testing::plan(path::testing::polyline(wave(Vec3::Zero(), 400)), settings);
+  return plan(polyline(wave(Vec3::Zero(), 400)), settings);
 }
 
-feedrate::testing::Plan mixed_plan(double period) {
-  using path::testing::arc_block;
-  using path::testing::line_block;
+Plan mixed_plan(double period) {
   std::vector<gcode::Block> blocks{line_block({0, 0, 0}, {11, 0, 0}),
                                    arc_block({11, 0, 0}, {1, 0, 0}, 3.0, 2.0, true)};
   blocks.push_back(line_block(blocks.back().end, {10, 10, 0}));
-  for (const gcode::Block& block : path::testing::polyline(wave({10, 10, 0}, 150))) {
+  for (const gcode::Block& block : polyline(wave({10, 10, 0}, 150))) {
     blocks.push_back(block);
   }
-  blocks.push_back(path::testing::dwell_block(blocks.back().end, 0.05));
+  blocks.push_back(dwell_block(blocks.back().end, 0.05));
   blocks.push_back(line_block(blocks.back().end, blocks.back().end + Vec3(0, 0, 11), 30.0));
   blocks.back().path_mode = gcode::PathMode::kExactStop;
   blocks.push_back(line_block(blocks.back().end, blocks.back().end + Vec3(0, 0, 11), 30.0));
-  feedrate::testing::PlanSettings settings;
+  PlanSettings settings;
   settings.period = period;
-  return feedrate::testing::plan(blocks, settings);
+  return plan(blocks, settings);
 }
 
-}  // namespace twin::motion::testing
+}  // namespace twin::test

@@ -6,12 +6,12 @@
 #include "motion/interpolator/interpolator.hpp"
 #include "tests/support/plan.hpp"
 
-namespace twin::motion::testing {
+namespace twin::test {
 
 /// Hands out the segments of a finished plan; now and then, if told so, none is there yet.
-class PlanSource final : public SegmentSource {
+class PlanSource final : public motion::SegmentSource {
  public:
-  explicit PlanSource(const feedrate::testing::Plan& plan, std::size_t starve_every = 0)
+  explicit PlanSource(const Plan& plan, std::size_t starve_every = 0)
       : plan_(plan), starve_every_(starve_every) {}
 
   const feedrate::PlannedSegment* next() noexcept override;
@@ -21,7 +21,7 @@ class PlanSource final : public SegmentSource {
   std::size_t released() const { return released_; }
 
  private:
-  const feedrate::testing::Plan& plan_;
+  const Plan& plan_;
   std::size_t starve_every_;
   std::size_t asked_ = 0;
   std::size_t next_ = 0;
@@ -29,10 +29,10 @@ class PlanSource final : public SegmentSource {
 };
 
 /// Hands out a plan, and others of the same path that start inside it, one after the other.
-class ReplanSource final : public SegmentSource {
+class ReplanSource final : public motion::SegmentSource {
  public:
   /// @param scale  of the programmed feedrates of the other plans [-]
-  ReplanSource(const feedrate::testing::Plan& plan, double period, double scale = 1.0);
+  ReplanSource(const Plan& plan, double period, double scale = 1.0);
 
   /// Plans the path again from a place passed with no acceleration; adopt() switches to it.
   /// @returns its number
@@ -57,23 +57,22 @@ class ReplanSource final : public SegmentSource {
 };
 
 /// All set points of a plan.
-std::vector<SetPoint> follow(const feedrate::testing::Plan& plan, double period,
-                             std::size_t starve_every = 0,
-                             const InterpolatorSettings& settings = {});
+std::vector<motion::SetPoint> follow(const Plan& plan, double period, std::size_t starve_every = 0,
+                                     const motion::InterpolatorSettings& settings = {});
 
 /// Place of the path at a time of the plan, found without the interpolator [mm].
-Vec3 place_at(const feedrate::testing::Plan& plan, double time);
+Vec3 place_at(const Plan& plan, double time);
 
 /// Place of the path at a distance from its start [mm].
-Vec3 place_at_distance(const feedrate::testing::Plan& plan, double distance);
+Vec3 place_at_distance(const Plan& plan, double distance);
 
 /// Distance from the path's start at a time of the plan [mm].
-double distance_at(const feedrate::testing::Plan& plan, double time);
+double distance_at(const Plan& plan, double time);
 
 /// A smooth outline in curves, with tight and wide rounds.
-feedrate::testing::Plan smooth_plan(double period);
+Plan smooth_plan(double period);
 
 /// Lines, an arc, curves, a corner, an exact stop and a dwell.
-feedrate::testing::Plan mixed_plan(double period);
+Plan mixed_plan(double period);
 
-}  // namespace twin::motion::testing
+}  // namespace twin::test

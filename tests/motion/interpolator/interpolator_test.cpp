@@ -3,21 +3,21 @@
 #include <gtest/gtest.h>
 
 #include "following.hpp"
-#include "tests/path/blocks.hpp"
+#include "tests/support/blocks.hpp"
 #include "tests/support/random_program.hpp"
 
 namespace twin::motion {
 namespace interpolator_test {
 
-using testing::follow;
-using testing::mixed_plan;
-using testing::place_at;
-using testing::PlanSource;
+using test::follow;
+using test::mixed_plan;
+using test::place_at;
+using test::PlanSource;
 
 constexpr double kPeriods[] = {0.125e-3, 0.25e-3, 1e-3, 2e-3, 4e-3};
 
 /// The plan asked for its place every period, to its end, rounded up to a period.
-void expect_places_of_plan(const std::vector<SetPoint>& points, const feedrate::testing::Plan& plan,
+void expect_places_of_plan(const std::vector<SetPoint>& points, const test::Plan& plan,
                            double period) {
   const double periods = plan.time / period;
   ASSERT_GE(static_cast<double>(points.size() - 1), periods - 1e-6);
@@ -40,10 +40,10 @@ TEST(Interpolator, GivesThePlacesOfThePlanAtEveryPeriodAcrossSegmentEnds) {
 TEST(Interpolator, GivesThePlacesOfThePlanOfRandomPrograms) {
   std::mt19937 random(1);
   for (int i = 0; i < 25; ++i) {
-    feedrate::testing::PlanSettings settings;
+    test::PlanSettings settings;
     settings.period = kPeriods[i % 5] * (i % 5 == 0 ? 4.0 : 1.0);
-    const auto blocks = feedrate::testing::random_program(random, 6);
-    const auto plan = feedrate::testing::plan(blocks, settings);
+    const auto blocks = test::random_program(random, 6);
+    const auto plan = test::plan(blocks, settings);
     ASSERT_NO_FATAL_FAILURE(
         expect_places_of_plan(follow(plan, settings.period), plan, settings.period))
         << "program " << i;
@@ -56,9 +56,9 @@ TEST(Interpolator, TakesNoShortStepOnALineInPiecesShorterThanAStep) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3 start(0.013 * i, 0.0, 0.0);
     pieces.push_back(
-        path::make_segment(path::testing::line_block(start, start + Vec3(0.013, 0, 0)), i, {}, {}));
+        path::make_segment(test::line_block(start, start + Vec3(0.013, 0, 0)), i, {}, {}));
   }
-  const auto points = follow(feedrate::testing::plan(pieces), 1e-3);
+  const auto points = follow(test::plan(pieces), 1e-3);
   int at_feedrate = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].feedrate > 50.0 - 1e-9 && points[i - 1].feedrate > 50.0 - 1e-9) {
@@ -126,7 +126,7 @@ TEST(Interpolator, NamesBlocksAndSegmentsInOrder) {
 }
 
 TEST(Interpolator, OfNothingIsDoneAtOnce) {
-  const feedrate::testing::Plan empty;
+  const test::Plan empty;
   EXPECT_TRUE(follow(empty, 1e-3).empty());
 }
 

@@ -9,13 +9,13 @@
 namespace twin::motion {
 namespace resume_test {
 
-using testing::ReplanSource;
+using test::ReplanSource;
 
 constexpr feedrate::RampLimits kLimits{2450.0, 50000.0};
 
 /// Brakes after each of the given numbers of set points, goes on by another plan after each rest,
 /// and goes to the end.
-std::vector<SetPoint> follow_with_rests(const feedrate::testing::Plan& plan, double period,
+std::vector<SetPoint> follow_with_rests(const test::Plan& plan, double period,
                                         const std::vector<std::size_t>& rests) {
   ReplanSource source(plan, period);
   Interpolator interpolator(source, period);
@@ -46,8 +46,8 @@ std::vector<SetPoint> follow_with_rests(const feedrate::testing::Plan& plan, dou
 
 TEST(Resume, FromAnyPeriodGoesOnToTheSameEnd) {
   const double period = 2e-3;
-  const auto plan = testing::mixed_plan(period);
-  const auto whole = testing::follow(plan, period);
+  const auto plan = test::mixed_plan(period);
+  const auto whole = test::follow(plan, period);
   for (std::size_t steps = 1; steps < whole.size(); ++steps) {
     const auto points = follow_with_rests(plan, period, {steps});
     ASSERT_LT((points.back().position - whole.back().position).norm(), 1e-8) << steps;
@@ -59,8 +59,8 @@ TEST(Resume, FromAnyPeriodGoesOnToTheSameEnd) {
 TEST(Resume, AgainAndAgainGoesOnToTheSameEndOfRandomPrograms) {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
-    const auto plan = feedrate::testing::plan(feedrate::testing::random_program(random, 6));
-    const auto whole = testing::follow(plan, 1e-3);
+    const auto plan = test::plan(test::random_program(random, 6));
+    const auto whole = test::follow(plan, 1e-3);
     std::vector<std::size_t> rests;
     for (int k = 0; k < 8; ++k) {
       rests.push_back(1 + random() % whole.size());
@@ -72,8 +72,8 @@ TEST(Resume, AgainAndAgainGoesOnToTheSameEndOfRandomPrograms) {
 
 TEST(Resume, KeepsTheLimits) {
   const double period = 1e-3;
-  const auto plan = testing::mixed_plan(period);
-  const auto count = testing::follow(plan, period).size();
+  const auto plan = test::mixed_plan(period);
+  const auto count = test::follow(plan, period).size();
   for (std::size_t steps = 20; steps + 1 < count; steps += 37) {
     const auto points = follow_with_rests(plan, period, {steps});
     for (std::size_t i = 2; i < points.size(); ++i) {
@@ -88,13 +88,13 @@ TEST(Resume, KeepsTheLimits) {
 
 TEST(Resume, DoesNotCutADwellShort) {
   const double period = 1e-3;
-  const auto plan = testing::mixed_plan(period);
+  const auto plan = test::mixed_plan(period);
   std::int64_t rest = 0;
   for (const auto& planned : plan.segments) {
     rest = planned.segment.dwell > 0.0 ? planned.index : rest;
   }
   const auto is_resting = [&](const SetPoint& point) { return point.segment == rest; };
-  const auto whole = testing::follow(plan, period);
+  const auto whole = test::follow(plan, period);
   const auto first = static_cast<std::size_t>(std::find_if(whole.begin(), whole.end(), is_resting) -
                                               whole.begin());
   for (std::size_t steps = first - 60; steps <= first + 45; ++steps) {

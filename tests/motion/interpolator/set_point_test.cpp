@@ -9,11 +9,11 @@ namespace set_point_test {
 
 TEST(SetPoint, VelocityAndAccelerationAreTheDifferencesOfThePositions) {
   const double period = 0.125e-3;
-  const auto plan = testing::smooth_plan(period);
+  const auto plan = test::smooth_plan(period);
   for (const auto& planned : plan.segments) {
     ASSERT_TRUE(std::holds_alternative<path::FittedCurve>(planned.segment.geometry));
   }
-  const auto points = testing::follow(plan, period);
+  const auto points = test::follow(plan, period);
   ASSERT_GT(points.size(), 2000U);
   // Over +-T the third derivative, at most J along and a few v^3 kappa^2 across, errs by T^2 / 6 of
   // it in velocity; a step of it inside errs by T of it in acceleration.
@@ -30,7 +30,7 @@ TEST(SetPoint, VelocityAndAccelerationAreTheDifferencesOfThePositions) {
 TEST(SetPoint, KeepsFeedrateAccelerationAndJerkByItsDifferences) {
   const Limits limits;
   for (const double period : {0.25e-3, 1e-3}) {
-    const auto points = testing::follow(testing::smooth_plan(period), period);
+    const auto points = test::follow(test::smooth_plan(period), period);
     for (std::size_t i = 2; i + 1 < points.size(); ++i) {
       const Vec3 acceleration =
           (points[i + 1].position - 2.0 * points[i].position + points[i - 1].position) /
@@ -50,7 +50,7 @@ TEST(SetPoint, KeepsFeedrateAccelerationAndJerkByItsDifferences) {
 }
 
 TEST(SetPoint, NeverExceedsTheLimitItNames) {
-  const auto points = testing::follow(testing::mixed_plan(1e-3), 1e-3);
+  const auto points = test::follow(test::mixed_plan(1e-3), 1e-3);
   for (const SetPoint& point : points) {
     EXPECT_LE(point.feedrate, point.feedrate_limit * (1.0 + 1e-6) + 1e-6);
     EXPECT_NEAR(point.velocity.norm(), point.feedrate, 1e-12);

@@ -7,12 +7,12 @@ namespace twin::motion {
 namespace switch_test {
 
 using feedrate::PlannedSegment;
-using testing::ReplanSource;
+using test::ReplanSource;
 
 constexpr double kPeriod = 1e-3;  // [s]
 
 /// Holds of a plan: phases without acceleration or jerk, in motion.
-std::vector<PlanSwitch> holds_of(const feedrate::testing::Plan& plan) {
+std::vector<PlanSwitch> holds_of(const test::Plan& plan) {
   std::vector<PlanSwitch> holds;
   for (const PlannedSegment& planned : plan.segments) {
     for (std::size_t i = 0; i < planned.phases.size(); ++i) {
@@ -26,7 +26,7 @@ std::vector<PlanSwitch> holds_of(const feedrate::testing::Plan& plan) {
 }
 
 /// Follows a plan, leaves it at a place for one that is the same from there on.
-std::vector<SetPoint> follow_with_switch(const feedrate::testing::Plan& plan, PlanSwitch at) {
+std::vector<SetPoint> follow_with_switch(const test::Plan& plan, PlanSwitch at) {
   ReplanSource source(plan, kPeriod);
   Interpolator interpolator(source, kPeriod);
   const auto& planned = plan.segments[static_cast<std::size_t>(at.segment)];
@@ -52,8 +52,8 @@ std::vector<SetPoint> follow_with_switch(const feedrate::testing::Plan& plan, Pl
 }
 
 TEST(Switch, AnEqualPlanGivesEqualSetPoints) {
-  const auto plan = testing::mixed_plan(kPeriod);
-  const auto whole = testing::follow(plan, kPeriod);
+  const auto plan = test::mixed_plan(kPeriod);
+  const auto whole = test::follow(plan, kPeriod);
   const auto holds = holds_of(plan);
   ASSERT_GT(holds.size(), 5U);
   for (const PlanSwitch& at : holds) {
@@ -68,7 +68,7 @@ TEST(Switch, AnEqualPlanGivesEqualSetPoints) {
 }
 
 TEST(Switch, APlaceThatHasBeenPassedIsRefused) {
-  const auto plan = testing::mixed_plan(kPeriod);
+  const auto plan = test::mixed_plan(kPeriod);
   const auto holds = holds_of(plan);
   ReplanSource source(plan, kPeriod);
   Interpolator interpolator(source, kPeriod);
@@ -85,8 +85,8 @@ TEST(Switch, APlaceThatHasBeenPassedIsRefused) {
 }
 
 TEST(Switch, BrakingAcrossThePlaceGoesOnByTheOtherPlan) {
-  const auto plan = testing::mixed_plan(kPeriod);
-  const auto whole = testing::follow(plan, kPeriod);
+  const auto plan = test::mixed_plan(kPeriod);
+  const auto whole = test::follow(plan, kPeriod);
   for (PlanSwitch at : holds_of(plan)) {
     ReplanSource source(plan, kPeriod);
     Interpolator interpolator(source, kPeriod);

@@ -9,9 +9,9 @@
 namespace twin::motion {
 namespace variants_test {
 
-using testing::follow;
-using testing::place_at;
-using testing::smooth_plan;
+using test::follow;
+using test::place_at;
+using test::smooth_plan;
 
 constexpr double kPeriod = 1e-3;
 

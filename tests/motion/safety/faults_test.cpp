@@ -6,8 +6,8 @@
 
 #include "config/machine_file.hpp"
 #include "runtime/motion.hpp"
-#include "tests/runtime/faulty_machine.hpp"
-#include "tests/runtime/planned.hpp"
+#include "tests/support/faulty_machine.hpp"
+#include "tests/support/planned.hpp"
 
 // Faults put between controller and simulated table: what trips, how soon, and how far the table
 // has gone by then. In every case 0 V and servo off are written in the period of the trip, and
@@ -24,19 +24,14 @@ class Faults : public ::testing::Test {
   Faults() : file(*config::read_machine_file(TWIN_SOURCE_DIR "/mjcf/xy_table.toml")) {}
 
   MotionResult run(const std::string& program = "G01 X40 F3000\nX0\n") {
-    EXPECT_TRUE(machine.configure(kPeriod));
-    EXPECT_TRUE(machine.activate());
-    auto planned = test::plan_text(program, file);
-    SegmentQueue segments(planned.size());
-    for (feedrate::PlannedSegment& segment : planned) {
-      segments.push(std::move(segment));
-    }
-    segments.close();
-    motion::Interpolator interpolator(segments, kPeriod);
+    EXPECT_TRUE(checked(machine.configure(kPeriod)));
+    EXPECT_TRUE(checked(machine.activate()));
+    test::InlinePlan plan(program, file);
+    motion::Interpolator interpolator(plan.planning, kPeriod);
     Cycle cycle(interpolator, &machine, file.servo, kPeriod, file.safety, file.limits.feedrate);
-    Pace pace;
-    pace.ready_timeout = file.safety.ready_timeout;
-    return run_motion(cycle, interpolator, segments, samples, file.limits, pace, stop);
+    LockstepPace pace(plan.planning, stop);
+    return run_motion(cycle, interpolator, plan.planning, samples, pace,
+                      {.ready_timeout = file.safety.ready_timeout, .limits = file.limits}, stop);
   }
 
   /// It ended with this, and the machine was switched off in the same period.
@@ -44,7 +39,7 @@ class Faults : public ::testing::Test {
     ASSERT_EQ(result.end, MotionEnd::kTripped);
     EXPECT_EQ(result.trip->kind, kind) << describe(*result.trip);
     EXPECT_EQ(result.trip->axis, axis);
-    EXPECT_EQ(result.trip->reaction, motion::Reaction::kImmediate);
+    EXPECT_TRUE(is_immediate(*result.trip));
     EXPECT_EQ(machine.last_written.volts[0], 0.0);
     EXPECT_EQ(machine.last_written.volts[1], 0.0);
     EXPECT_FALSE(machine.last_written.servo_on[0]);
@@ -85,7 +80,7 @@ TEST_F(Faults, DriveAlarmSwitchesOffInItsPeriod) {
   EXPECT_NEAR(result.trip->time, 0.199, 1e-9);
   EXPECT_EQ(result.trip->line, 1);
   // The period of the trip is the last one recorded.
-  EXPECT_EQ(samples.read_available(), 200U);
+  EXPECT_EQ(samples.size(), 200U);
 }
 
 TEST_F(Faults, ReadyThatGoesSwitchesOffInItsPeriod) {
@@ -121,7 +116,7 @@ TEST_F(Faults, AlarmBeforeTheFirstSetPointLetsNothingMove) {
   const MotionResult result = run();
   expect_off(result, motion::Kind::kDriveAlarm, 0);
   EXPECT_EQ(result.trip->line, 0);
-  EXPECT_EQ(samples.read_available(), 0U);
+  EXPECT_EQ(samples.size(), 0U);
 }
 
 TEST_F(Faults, DriveThatIsNeverReadyLetsNothingMove) {
@@ -132,7 +127,7 @@ TEST_F(Faults, DriveThatIsNeverReadyLetsNothingMove) {
   EXPECT_EQ(result.trip->kind, motion::Kind::kNotReady);
   EXPECT_EQ(result.trip->axis, 1U);
   EXPECT_EQ(machine.reads, 500);
-  EXPECT_EQ(samples.read_available(), 0U);
+  EXPECT_EQ(samples.size(), 0U);
   EXPECT_TRUE(machine.is_off);
   EXPECT_EQ(machine.last_written.position_reference[0], 0.0);
 }
@@ -159,7 +154,7 @@ TEST_F(Faults, SaturatedDriveCommandBrakesOnThePath) {
   const MotionResult result = run();
   ASSERT_EQ(result.end, MotionEnd::kTripped);
   EXPECT_EQ(result.trip->kind, motion::Kind::kSaturation);
-  EXPECT_EQ(result.trip->reaction, motion::Reaction::kControlled);
+  EXPECT_FALSE(is_immediate(*result.trip));
 }
 
 /// A wrong sign of one wire from one period on, or from the start.

@@ -217,16 +217,16 @@ TEST(Monitors, ReportTheAxisAndPreferWhatMustSwitchOff) {
   const auto trip = monitors.check(views);
   EXPECT_EQ(trip->axis, 1U);
   EXPECT_EQ(trip->kind, Kind::kDriveAlarm);
-  EXPECT_EQ(trip->reaction, Reaction::kImmediate);
+  EXPECT_TRUE(is_immediate(*trip));
 }
 
 TEST(TripText, NamesAxisValueLimitTimeLineAndWhatToDo) {
-  EXPECT_EQ(describe({Kind::kTrackingError, 1, 0.6123, 0.5, 1.5, 42, Reaction::kImmediate}),
+  EXPECT_EQ(describe({Kind::kTrackingError, 1, 0.6123, 0.5, 1.5, 42}),
             "axis y: tracking error 0.612 mm, limit 0.500 mm, at t = 1.500 s, NC line 42; 0 V and "
             "servo off at once; does the axis move freely, do [servo] and [safety] fit?");
-  EXPECT_THAT(describe({Kind::kStall, kNoAxis, 0.1202, 0.1, 1.5, 42, Reaction::kControlled}),
+  EXPECT_THAT(describe({Kind::kStall, kNoAxis, 0.1202, 0.1, 1.5, 42}),
               HasSubstr("a period began 120.2 ms late, limit 100.0 ms, at t = 1.500 s"));
-  EXPECT_THAT(describe({Kind::kNotReady, 0, 3.0, 3.0, 0.0, 0, Reaction::kImmediate}),
+  EXPECT_THAT(describe({Kind::kNotReady, 0, 3.0, 3.0, 0.0, 0}),
               HasSubstr("axis x: no servo ready after 3000 ms, limit 3000 ms, before the first"));
 }
 

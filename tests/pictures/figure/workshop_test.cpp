@@ -5,24 +5,18 @@
 
 #include <array>
 
+#include "tests/support/files.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures {
 namespace workshop_test {
 
+using test::content;
+using test::put;
 using ::testing::HasSubstr;
 
-void put(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(Workshop, LeavesNothingThatWasNotDelivered) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   {
     const auto workshop = Workshop::open(folder / "results");
     ASSERT_TRUE(workshop);
@@ -32,7 +26,7 @@ TEST(Workshop, LeavesNothingThatWasNotDelivered) {
 }
 
 TEST(Workshop, DeliveredFilesAndFoldersTakeThePlaceOfOlderOnes) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   std::filesystem::create_directories(folder / "figures");
   folder.put("figures/old.png", "old");
   folder.put("a.txt", "old");
@@ -52,7 +46,7 @@ TEST(Workshop, DeliveredFilesAndFoldersTakeThePlaceOfOlderOnes) {
 }
 
 TEST(Workshop, OlderResultsThatAreNotMadeAgainGo) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   std::filesystem::create_directories(folder / "figures");
   {
     const auto workshop = Workshop::open(folder.path());

@@ -7,8 +7,9 @@
 #include <numbers>
 
 #include "results/trace/csv_reader.hpp"
-#include "tests/results/trace/synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures {
 namespace circular_figure_test {
@@ -35,7 +36,7 @@ TEST(CircularFigure, DivisionIsARoundNumberThatTheLargestErrorSpansFourTimes) {
 }
 
 TEST(CircularFigure, HasPicturesDataAndAScriptThatSaysTheScale) {
-  const test::TemporaryDirectory directory;
+  const test::TempFolder directory;
   const auto ccw = lobes(1.0, 3000);
   const auto cw = lobes(-1.0, 20000);
   const auto pictures = write_circular_figure(

@@ -6,15 +6,16 @@
 #include <fstream>
 
 #include "results/trace/limit_writer.hpp"
-#include "tests/results/trace/synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures {
 namespace figures_test {
 
 namespace fs = std::filesystem;
 using test::SyntheticRun;
-using test::TemporaryDirectory;
+using test::TempFolder;
 
 /// Width and height from the header of a PNG file; zero for anything else.
 std::pair<unsigned, unsigned> png_size(const fs::path& file) {
@@ -33,7 +34,7 @@ std::pair<unsigned, unsigned> png_size(const fs::path& file) {
 }
 
 TEST(Figures, ARunHasAllFiguresWithDataAndScriptBeside) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const SyntheticRun run;
   ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run));
   const auto pictures =
@@ -52,7 +53,7 @@ TEST(Figures, ARunHasAllFiguresWithDataAndScriptBeside) {
 }
 
 TEST(Figures, ARunOnTheWallClockHasItsTimingAndSaysThatItIsSimulated) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   SyntheticRun run;
   run.duration = 0.2;
   ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run));
@@ -79,7 +80,7 @@ TEST(Figures, ARunOnTheWallClockHasItsTimingAndSaysThatItIsSimulated) {
 }
 
 TEST(Figures, APlanHasTheFiguresOfTheCommand) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   SyntheticRun run;
   run.duration = 0.2;
   ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run, results::Layout::kPlan));
@@ -89,7 +90,7 @@ TEST(Figures, APlanHasTheFiguresOfTheCommand) {
 }
 
 TEST(Figures, AnOddDirectoryNameAndTitleDoNoHarm) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const fs::path odd = directory.path() / "it's; touch $(x) \"y\"";
   fs::create_directory(odd);
   SyntheticRun run;
@@ -100,7 +101,7 @@ TEST(Figures, AnOddDirectoryNameAndTitleDoNoHarm) {
 }
 
 TEST(Figures, ATraceOfOneRowOrOfDescendingTimeIsRefused) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const std::string header = "t_s,x_cmd_mm,y_cmd_mm,z_cmd_mm,feedrate_mm_per_s\n";
   test::put(directory.path() / "trace.csv", header + "0,0,0,0,0\n");
   auto pictures = write_figures({directory.path(), "", {}, true});
@@ -127,7 +128,7 @@ class SearchPath {
 };
 
 TEST(Figures, WithoutGnuplotTheMessageSaysWhatToInstall) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   SyntheticRun run;
   run.duration = 0.1;
   ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run, results::Layout::kPlan));
@@ -138,7 +139,7 @@ TEST(Figures, WithoutGnuplotTheMessageSaysWhatToInstall) {
 }
 
 TEST(Figures, AFailingGnuplotIsQuoted) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   SyntheticRun run;
   run.duration = 0.1;
   ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run, results::Layout::kPlan));

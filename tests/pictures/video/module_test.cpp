@@ -3,14 +3,15 @@
 #include <filesystem>
 
 #include "pictures/video/video.hpp"
-#include "tests/results/trace/synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures::video {
 namespace module_test {
 
 namespace fs = std::filesystem;
-using test::TemporaryDirectory;
+using test::TempFolder;
 
 VideoInput tiny_video(const fs::path& directory) {
   test::SyntheticRun run;
@@ -26,7 +27,7 @@ VideoInput tiny_video(const fs::path& directory) {
 }
 
 TEST(VideoModule, ItIsFoundAndWritesAVideo) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const VideoInput input = tiny_video(directory.path());
   const auto report = write_video(input);
   ASSERT_TRUE(report) << to_string(report.error());
@@ -35,7 +36,7 @@ TEST(VideoModule, ItIsFoundAndWritesAVideo) {
 }
 
 TEST(VideoModule, ItsErrorsComeBack) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   VideoInput input = tiny_video(directory.path());
   input.camera = "behind";
   const auto report = write_video(input);
@@ -45,7 +46,7 @@ TEST(VideoModule, ItsErrorsComeBack) {
 }
 
 TEST(VideoModule, AMissingOneIsNamed) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto report = write_video_with("/nowhere/twin-video.so", tiny_video(directory.path()));
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().code, ErrorCode::kFile);
@@ -54,7 +55,7 @@ TEST(VideoModule, AMissingOneIsNamed) {
 }
 
 TEST(VideoModule, AFileThatIsNoneIsNamed) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   test::put(directory.path() / "twin-video.so", "not a library");
   const auto report =
       write_video_with(directory.path() / "twin-video.so", tiny_video(directory.path()));

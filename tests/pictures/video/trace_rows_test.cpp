@@ -2,20 +2,21 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/results/trace/synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures::video {
 namespace trace_rows_test {
 
 using test::put;
-using test::TemporaryDirectory;
+using test::TempFolder;
 
 constexpr const char* kHeader =
     "t_s,line,x_table_mm,y_table_mm,z_cmd_mm,feedrate_mm_per_s,contour_error_um\n";
 
 TEST(SurveyTrace, LooksOnlyAtWhatThePenDraws) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   put(directory.path() / "t.csv", std::string(kHeader) +
                                       "0,1,-90,80,5,0,99\n"
                                       "1,2,10,-20,0,50,3\n"
@@ -31,7 +32,7 @@ TEST(SurveyTrace, LooksOnlyAtWhatThePenDraws) {
 }
 
 TEST(SurveyTrace, AProgramThatStaysHighIsDrawnAllTheSame) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   put(directory.path() / "t.csv", std::string(kHeader) + "0,1,1,2,5,0,4\n1,1,3,2,5,0,4\n");
   const auto survey = survey_trace(directory.path() / "t.csv");
   ASSERT_TRUE(survey);
@@ -40,7 +41,7 @@ TEST(SurveyTrace, AProgramThatStaysHighIsDrawnAllTheSame) {
 }
 
 TEST(SurveyTrace, APlanStandsForATableThatFollowsExactly) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   test::SyntheticRun run;
   run.duration = 0.5;
   ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run, results::Layout::kPlan));
@@ -51,7 +52,7 @@ TEST(SurveyTrace, APlanStandsForATableThatFollowsExactly) {
 }
 
 TEST(SurveyTrace, AnEmptyTraceIsAnError) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   put(directory.path() / "t.csv", kHeader);
   const auto survey = survey_trace(directory.path() / "t.csv");
   ASSERT_FALSE(survey);

@@ -7,15 +7,16 @@
 #include "pictures/video/av.hpp"
 #include "pictures/video/film.hpp"
 #include "pictures/video/video_encoder.hpp"
-#include "tests/results/trace/synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures::video {
 namespace video_test {
 
 namespace fs = std::filesystem;
 using test::SyntheticRun;
-using test::TemporaryDirectory;
+using test::TempFolder;
 
 const fs::path kScene = fs::path(TWIN_SOURCE_DIR) / "mjcf" / "scene.xml";
 
@@ -88,7 +89,7 @@ VideoInput small_video(const fs::path& directory, double duration) {
 }
 
 TEST(VideoEncoder, WhatIsEncodedPlaysWithEveryFrame) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const fs::path file = directory.path() / "odd: name.mp4";
   auto encoder = VideoEncoder::open(file, 64, 48, 25);
   ASSERT_TRUE(encoder) << to_string(encoder.error());
@@ -108,7 +109,7 @@ TEST(VideoEncoder, WhatIsEncodedPlaysWithEveryFrame) {
 }
 
 TEST(VideoEncoder, WithoutFinishNothingIsLeft) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   {
     auto encoder = VideoEncoder::open(directory.path() / "v.mp4", 64, 48, 25);
     ASSERT_TRUE(encoder);
@@ -126,7 +127,7 @@ TEST(VideoEncoder, OddSizesAndUnwritableFilesAreRefused) {
 }
 
 TEST(VideoEncoder, AFullDiskIsAnErrorAndLeavesNoFile) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   {
     auto encoder = VideoEncoder::open(directory.path() / "v.mp4", 640, 480, 25);
     ASSERT_TRUE(encoder);
@@ -150,7 +151,7 @@ TEST(VideoEncoder, AFullDiskIsAnErrorAndLeavesNoFile) {
 }
 
 TEST(Png, APictureReadsBackPixelForPixel) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   Image image(31, 17);
   for (int y = 0; y < 17; ++y) {
     for (int x = 0; x < 31; ++x) {
@@ -180,7 +181,7 @@ TEST(Png, APictureReadsBackPixelForPixel) {
 }
 
 TEST(Video, ItIsAsLongAsTheMachiningToTheNearestFrame) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   VideoInput input = small_video(directory.path(), 0.42);
   std::vector<double> progress;
   input.progress = [&](double part) { progress.push_back(part); };
@@ -211,7 +212,7 @@ int differences(const Image& a, const Image& b) {
 }
 
 TEST(Film, AClosedPathLeavesItsDrawingOnThePlateAndNothingElse) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const VideoInput input = small_video(directory.path(), 0.5);
   auto film = Film::create(input.trace_csv, kScene, "top", 320, 180, 0);
   ASSERT_TRUE(film) << to_string(film.error());
@@ -228,7 +229,7 @@ TEST(Film, AClosedPathLeavesItsDrawingOnThePlateAndNothingElse) {
 }
 
 TEST(Film, ThePaperBehindThePenChangesToInk) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const VideoInput input = small_video(directory.path(), 0.5);
   auto film = Film::create(input.trace_csv, kScene, "top", 320, 180, 0);
   ASSERT_TRUE(film);
@@ -250,7 +251,7 @@ TEST(Film, ThePaperBehindThePenChangesToInk) {
 }
 
 TEST(Video, AStillIsAPngOfTheSizeAskedFor) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const VideoInput input = small_video(directory.path(), 0.1);
   const auto written = write_still(input, 1e9, directory.path() / "still.png");
   ASSERT_TRUE(written) << to_string(written.error());
@@ -268,7 +269,7 @@ std::string complaint(VideoInput input) {
 }
 
 TEST(Video, WrongInputIsNamedAndLeavesNoFile) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const VideoInput good = small_video(directory.path(), 0.1);
   VideoInput bad = good;
   bad.camera = "behind";

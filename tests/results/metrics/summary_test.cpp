@@ -28,7 +28,7 @@ Summary sample_summary() {
   s.feedrate_fluctuation = {0.57, 0.01};
   s.audit.feedrate = 50.0;
   s.audit.tangential_jerk = 49999.5;
-  s.run = MachineFigures{};
+  s.run = MachineResults{};
   s.run->machining_time = 10.2;
   s.run->contour_error = {0.032, 0.0088};
   s.run->tracking_error[1] = {0.1 + 0.2, 0.05};
@@ -47,13 +47,14 @@ std::vector<std::string> keys(const Json& json) {
 
 TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
   const Json json = Json::parse(to_json(sample_summary()));
-  EXPECT_THAT(keys(json),
-              testing::ElementsAre(
-                  "program", "machine", "hal", "interpolator", "simulated", "period_s", "blocks",
-                  "segments", "compression_factor", "path_length_mm", "planned_time_s",
-                  "machining_time_s", "command_contour_error_um", "contour_error_um",
-                  "table_contour_error_um", "tracking_error_um", "feedrate_fluctuation_percent",
-                  "audit", "cycle_time_us", "real_time_factor"));
+  EXPECT_THAT(
+      keys(json),
+      testing::ElementsAre("program", "machine", "hal", "planner", "interpolator", "simulated",
+                           "period_s", "blocks", "segments", "compression_factor", "path_length_mm",
+                           "planned_time_s", "machining_time_s", "command_contour_error_um",
+                           "contour_error_um", "table_contour_error_um", "tracking_error_um",
+                           "feedrate_fluctuation_percent", "audit", "cycle_time_us",
+                           "real_time_factor", "version", "command", "program_sha256", "settings"));
   EXPECT_THAT(keys(json["blocks"]), testing::ElementsAre("total", "short", "length_mm"));
   EXPECT_THAT(keys(json["blocks"]["length_mm"]), testing::ElementsAre("min", "mean", "max"));
   EXPECT_THAT(keys(json["segments"]), testing::ElementsAre("total", "curves", "lines", "arcs"));
@@ -66,6 +67,36 @@ TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
       keys(json["audit"]["axis"]["z"]),
       testing::ElementsAre("velocity_mm_per_s", "acceleration_mm_per_s2", "jerk_mm_per_s3"));
   EXPECT_THAT(keys(json["cycle_time_us"]), testing::ElementsAre("p50", "p99", "max"));
+}
+
+TEST(SummaryJson, SettingsAreAnObjectOfSections) {
+  Summary summary = sample_summary();
+  summary.settings = {{"limits", "jerk_mm_per_s3", 5e4},
+                      {"limits", "travel_max_mm", std::vector<double>{300.0, 300.0, 100.0}},
+                      {"planning", "planner", std::string("paper")},
+                      {"planning", "look_ahead", std::int64_t{200}},
+                      {"safety", "is_on", true}};
+  const Json json = Json::parse(to_json(summary))["settings"];
+  EXPECT_EQ(json.dump(),
+            R"({"limits":{"jerk_mm_per_s3":50000.0,"travel_max_mm":[300.0,300.0,100.0]},)"
+            R"("planning":{"planner":"paper","look_ahead":200},"safety":{"is_on":true}})");
+}
+
+TEST(SummaryJson, SaysWhatTheRunWasMadeFrom) {
+  Summary summary = sample_summary();
+  summary.planner = "paper";
+  summary.version = "1.2.3";
+  summary.command = "twin run dolphin.nc";
+  EXPECT_FALSE(Json::parse(to_json(summary)).contains("notes"));
+  summary.notes = {"another planner plans"};
+  const Json json = Json::parse(to_json(summary));
+  EXPECT_EQ(json["planner"], "paper");
+  EXPECT_EQ(json["version"], "1.2.3");
+  EXPECT_EQ(json["command"], "twin run dolphin.nc");
+  EXPECT_EQ(json["notes"], Json({"another planner plans"}));
+  const std::string table = to_table(summary, Limits{});
+  EXPECT_THAT(table, HasSubstr("paper planner, nurbs"));
+  EXPECT_THAT(table, HasSubstr("note                      another planner plans"));
 }
 
 TEST(SummaryJson, TheBoundStandsBehindThePlannedTimeWithItsRatio) {
@@ -112,7 +143,7 @@ TEST(SummaryTable, IsShortAlignedAndHasUnits) {
   std::istringstream stream(table);
   int lines = 0;
   for (std::string line; std::getline(stream, line); ++lines) {
-    EXPECT_LE(line.size(), 100U) << line;
+    EXPECT_LE(line.size(), 80U) << line;
     EXPECT_FALSE(line.ends_with(' ')) << line;
   }
   EXPECT_LE(lines, 24);
@@ -124,7 +155,7 @@ TEST(SummaryTable, IsShortAlignedAndHasUnits) {
 TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {
   Summary s = sample_summary();
   EXPECT_FALSE(Json::parse(to_json(s)).contains("realtime"));
-  RealTimeFigures figures;
+  RealTimeStats figures;
   figures.wake_up = {2e-5, 6e-5, 9e-5, 1e-4};
   figures.late_periods = 3;
   figures.worst_latency = 0.0123;

@@ -2,19 +2,20 @@
 
 #include <gmock/gmock.h>
 
-#include "synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin {
 namespace atomic_file_test {
 
 using test::content;
 using test::put;
-using test::TemporaryDirectory;
+using test::TempFolder;
 using testing::HasSubstr;
 
 TEST(AtomicFile, TheOldContentStaysUntilCommit) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto target = directory.path() / "summary.json";
   put(target, "old");
   auto file = AtomicFile::create(target, directory.path() / "summary.json.tmp");
@@ -27,7 +28,7 @@ TEST(AtomicFile, TheOldContentStaysUntilCommit) {
 }
 
 TEST(AtomicFile, AbandonedFileIsRemovedOrKeptUnderItsTemporaryName) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto target = directory.path() / "a";
   const auto temporary = directory.path() / "a.partial";
   {
@@ -44,7 +45,7 @@ TEST(AtomicFile, AbandonedFileIsRemovedOrKeptUnderItsTemporaryName) {
 }
 
 TEST(AtomicFile, AMovedFileIsCommittedOnce) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto target = directory.path() / "a";
   auto first = AtomicFile::create(target, directory.path() / "a.tmp");
   ASSERT_TRUE(first && first->write("x"));
@@ -56,7 +57,7 @@ TEST(AtomicFile, AMovedFileIsCommittedOnce) {
 }
 
 TEST(AtomicFile, TwoWritersOfOneFileCannotMix) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto temporary = directory.path() / "a.tmp";
   auto first = AtomicFile::create(directory.path() / "a", temporary);
   ASSERT_TRUE(first);
@@ -75,7 +76,7 @@ TEST(AtomicFile, MissingDirectoryIsNamed) {
 }
 
 TEST(AtomicFile, ADirectoryInThePlaceOfTheTargetIsAnError) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   std::filesystem::create_directory(directory.path() / "a");
   const auto written = write_whole_file(directory.path() / "a", "text");
   ASSERT_FALSE(written);
@@ -84,7 +85,7 @@ TEST(AtomicFile, ADirectoryInThePlaceOfTheTargetIsAnError) {
 }
 
 TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesNoWholeFile) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto target = directory.path() / "a";
   auto file = AtomicFile::create(target, directory.path() / "a.partial", OnAbandon::kKeep);
   ASSERT_TRUE(file);

@@ -4,18 +4,19 @@
 
 #include <array>
 
-#include "synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::results {
 namespace csv_reader_test {
 
 using test::put;
-using test::TemporaryDirectory;
+using test::TempFolder;
 
 /// The first error that reading columns a and b of this text gives, or "".
 std::string complaint(const std::string& text) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   const auto file = directory.path() / "t.csv";
   put(file, text);
   constexpr std::array<std::string_view, 2> kWanted{"b", "a"};
@@ -36,7 +37,7 @@ std::string complaint(const std::string& text) {
 }
 
 TEST(CsvReader, PicksColumnsByNameInTheOrderAskedFor) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   put(directory.path() / "t.csv", "\xEF\xBB\xBF a ,text,b\r\n1.5,word, -2e3 \r\n3,,4\r\n\r\n");
   auto reader = CsvReader::open(directory.path() / "t.csv");
   ASSERT_TRUE(reader);
@@ -85,7 +86,7 @@ TEST(CsvReader, MissingFileAndDirectoryAreErrors) {
 }
 
 TEST(CsvReader, RowsAcrossBlockBoundariesComeWhole) {
-  const TemporaryDirectory directory;
+  const TempFolder directory;
   std::string text = "a,b\n";
   for (int i = 0; i < 100000; ++i) {
     text += std::to_string(i) + "," + std::to_string(i % 977) + ".5\n";

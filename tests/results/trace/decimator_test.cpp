@@ -7,8 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::results {
 namespace decimator_test {
@@ -81,7 +82,7 @@ TEST(Decimator, KeptRowsAreRowsOfTheStream) {
 }
 
 TEST(LoadDecimated, ReadsNamedColumnsOfATrace) {
-  const test::TemporaryDirectory directory;
+  const test::TempFolder directory;
   const test::SyntheticRun run;
   const auto rows = test::write_synthetic_trace(directory.path(), run);
   ASSERT_TRUE(rows);

@@ -4,14 +4,15 @@
 
 #include <limits>
 
-#include "synthetic_trace.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/synthetic_trace.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::results {
 namespace limit_writer_test {
 
 TEST(LimitWriter, KeepsBothEndsOfEveryConstantStretch) {
-  const test::TemporaryDirectory directory;
+  const test::TempFolder directory;
   auto writer = LimitWriter::create(directory.path());
   ASSERT_TRUE(writer);
   double t = 0.0;

@@ -11,7 +11,7 @@
 namespace twin::studies::circular {
 namespace circle_fit_test {
 
-using testing::path_of;
+using test::path_of;
 
 /// Width of the ring about a centre that holds all points [mm].
 double ring_width(const std::vector<Vec2>& path, const Vec2& centre) {

@@ -7,7 +7,7 @@
 namespace twin::studies::circular {
 namespace deviations_test {
 
-using testing::path_of;
+using test::path_of;
 
 TEST(Deviations, OfTheNominalCircleAreNothing) {
   const auto same = [](double) { return 20.0; };

@@ -30,8 +30,8 @@ TEST(PolarPath, RadiusIsLinearBetweenPointsAcrossZeroToo) {
 
 TEST(PolarPath, SenseAndStartDoNotMatter) {
   const auto radius = [](double a) { return 20.0 + 0.01 * std::sin(5.0 * a); };
-  const PolarPath there(testing::path_of(radius), Vec2::Zero());
-  const PolarPath back(testing::path_of(radius, Sense::kClockwise), Vec2::Zero());
+  const PolarPath there(test::path_of(radius), Vec2::Zero());
+  const PolarPath back(test::path_of(radius, Sense::kClockwise), Vec2::Zero());
   for (double angle = 0.0; angle < 7.0; angle += 0.1) {
     EXPECT_NEAR(there.radius_at(angle), radius(angle), 1e-6);
     EXPECT_NEAR(back.radius_at(angle), radius(angle), 1e-6);

@@ -10,8 +10,8 @@
 namespace twin::studies::circular {
 namespace reversal_spikes_test {
 
-using testing::kTurn;
-using testing::path_of;
+using test::kTurn;
+using test::path_of;
 using units::deg_from_rad;
 using units::rad_from_deg;
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "feedrate/limits/curvature_limit.hpp"
+#include "feedrate/limits/feedrate_rules.hpp"
 
 namespace twin::studies::circular {
 namespace servo_prediction_test {

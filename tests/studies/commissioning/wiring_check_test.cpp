@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hal/mujoco/mujoco_machine.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::studies::commissioning {
 namespace wiring_check_test {
@@ -18,11 +18,11 @@ using ::testing::HasSubstr;
 /// The simulated table with faults in the wires between it and the controller.
 class MiswiredTable final : public hal::Machine {
  public:
-  MiswiredTable() : table_(hal::testing::default_table()), info_(table_.info()) {}
+  MiswiredTable() : table_(test::default_table()), info_(table_.info()) {}
 
   const hal::MachineInfo& info() const noexcept override { return info_; }
-  Expected<void> configure(double period) override { return table_.configure(period); }
-  Expected<void> activate() override { return table_.activate(); }
+  std::optional<Error> configure(double period) override { return table_.configure(period); }
+  std::optional<Error> activate() override { return table_.activate(); }
   hal::Status read(hal::Inputs& inputs) noexcept override {
     const hal::Status status = table_.read(inputs);
     inputs.counts[hal::kX] *= x_sense;

@@ -15,12 +15,12 @@ namespace bounded_plan_test {
 class BoundedPlanTest : public ::testing::Test {
  protected:
   BoundedPlan plan(const std::string& text) {
-    auto result = bounded_plan(folder.put("program.nc", text), machine, {}, true);
+    auto result = bounded_plan(folder.put("program.nc", text), machine, {}, Profiles::kRecorded);
     EXPECT_TRUE(result);
     return std::move(*result);
   }
 
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
   config::MachineFile machine;
 };
 

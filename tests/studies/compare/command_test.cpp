@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
 
 // The command as a user calls it.
 namespace twin::studies::compare {
@@ -8,7 +8,7 @@ namespace command_test {
 
 using ::testing::HasSubstr;
 
-class CompareCommand : public twin::test::CliTest {};
+class CompareCommand : public test::CliTest {};
 
 TEST_F(CompareCommand, PrintsATableAndWritesItsFiles) {
   const auto result = twin({"compare", "ok.nc", "--no-plots", "--hal", "ideal", "--out", "out"});

@@ -9,8 +9,7 @@
 
 #include "config/find_file.hpp"
 #include "hal/ideal/ideal_machine.hpp"
-#include "studies/compare/texts.hpp"
-#include "studies/compare/write_results.hpp"
+#include "studies/compare/comparison_files.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::compare {
@@ -40,7 +39,7 @@ class ComparisonTest : public ::testing::Test {
     };
   }
 
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
   Request request;
 };
 
@@ -63,7 +62,7 @@ TEST_F(ComparisonTest, EachInterpolatorRunsTheSameProgram) {
     EXPECT_GE(contestant.summary.planned_time, contestant.plan.time_bound);
     // 24 mm at 50 mm/s, with 2,450 mm/s^2 at both ends
     EXPECT_NEAR(contestant.plan.time_bound, 24.0 / 50.0 + 50.0 / 2450.0, 1e-3);
-    EXPECT_GT(contestant.planning_time, 0.0);
+    EXPECT_GT(contestant.summary.planning_time.value_or(0.0), 0.0);
     EXPECT_TRUE(std::filesystem::exists(contestant.folder / "trace.csv"));
   }
 }
@@ -124,7 +123,7 @@ TEST_F(ComparisonTest, PicturesAndTablesAreWritten) {
     request.folder = workshop->folder();
     const auto result = compare(request);
     ASSERT_TRUE(result) << to_string(result.error());
-    const auto written = write_results(*result, *workshop, true);
+    const auto written = write_results(*result, *workshop, pictures::Drawing::kDrawn);
     ASSERT_TRUE(written) << to_string(written.error());
   }
   for (const char* const name :

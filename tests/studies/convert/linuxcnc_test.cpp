@@ -42,7 +42,7 @@ class LinuxCnc : public testing::TestWithParam<std::string> {
     file = folder.put("made.ngc", test::convert_file(GetParam(), "g5.2").text);
   }
 
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
   std::filesystem::path file;
 };
 

@@ -12,29 +12,32 @@
 
 #include "gcode/programmed_curve.hpp"
 #include "path/path_builder.hpp"
-#include "studies/convert/comparison.hpp"
 #include "studies/convert/converter.hpp"
+#include "studies/convert/program_deviation.hpp"
 
 /// Conversions, and distances by brute force.
-namespace twin::studies::convert::test {
+namespace twin::test {
 
 inline std::string program_path(const std::string& name) {
   return (std::filesystem::path(TWIN_SOURCE_DIR) / "nc_programs" / name).string();
 }
 
-inline Expected<Conversion> convert_text(const std::string& text, const std::string& dialect,
-                                         const PathSettings& settings = {}) {
+inline Expected<studies::convert::Conversion> convert_text(const std::string& text,
+                                                           const std::string& dialect,
+                                                           const PathSettings& settings = {}) {
   auto reader = gcode::Reader::from_text(text, "part.nc");
-  return convert_program(reader, Vec3::Zero(), "part.nc", *make_dialect(dialect), settings, {}, {});
+  return studies::convert::convert_program(
+      reader, Vec3::Zero(), "part.nc", *studies::convert::make_dialect(dialect), settings, {}, {});
 }
 
-inline Conversion convert_file(const std::string& name, const std::string& dialect) {
+inline studies::convert::Conversion convert_file(const std::string& name,
+                                                 const std::string& dialect) {
   auto reader = gcode::Reader::open(program_path(name));
   EXPECT_TRUE(reader);
-  auto conversion =
-      convert_program(*reader, Vec3::Zero(), name, *make_dialect(dialect), {}, {}, {});
+  auto conversion = studies::convert::convert_program(
+      *reader, Vec3::Zero(), name, *studies::convert::make_dialect(dialect), {}, {}, {});
   EXPECT_TRUE(conversion) << to_string(conversion.error());
-  return conversion ? *conversion : Conversion{};
+  return conversion ? *conversion : studies::convert::Conversion{};
 }
 
 inline std::vector<gcode::Block> blocks_of(gcode::Reader reader) {
@@ -81,7 +84,7 @@ inline std::vector<Vec3> points_of(const gcode::Block& block, double step) {
       const geometry::Curve& c = block.nurbs->curve;
       points.push_back(c.position(c.u_min() + f * (c.u_max() - c.u_min())));
     } else if (block.motion == gcode::Motion::kArc) {
-      const gcode::ArcGeometry& a = block.arc;
+      const geometry::Arc& a = block.arc;
       const Vec3 axis = a.e1.cross(a.e2);
       points.push_back(a.centre +
                        (a.radius + f * a.radius_change) *
@@ -139,4 +142,4 @@ inline double distance_along(const std::vector<Vec3>& points, const std::vector<
   return largest;
 }
 
-}  // namespace twin::studies::convert::test
+}  // namespace twin::test

@@ -22,8 +22,8 @@ using Rows = std::array<std::vector<AxisRow>, hal::kServoAxes>;
 /// The same run on the table of MuJoCo, by the period of runtime::Cycle.
 Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPoint>& points) {
   hal::mujoco::MujocoMachine table(file.table);
-  EXPECT_TRUE(table.configure(file.period));
-  EXPECT_TRUE(table.activate());
+  EXPECT_TRUE(checked(table.configure(file.period)));
+  EXPECT_TRUE(checked(table.activate()));
   std::array<motion::AxisServo, 2> servos{
       motion::AxisServo{file.servo[0], table.info().mm_per_s_per_volt[0], file.period},
       motion::AxisServo{file.servo[1], table.info().mm_per_s_per_volt[1], file.period}};
@@ -31,7 +31,7 @@ Rows run_mujoco(const config::MachineFile& file, const std::vector<motion::SetPo
   hal::Inputs inputs;
   hal::Outputs outputs;
   outputs.servo_on = {true, true};
-  const long settle = std::lround(runtime::Pace{}.settle_time / file.period);
+  const long settle = std::lround(runtime::MotionOptions{}.rest_before / file.period);
   for (long k = -settle; k < static_cast<long>(points.size()); ++k) {
     EXPECT_EQ(table.read(inputs), hal::Status::kOk);
     const motion::SetPoint held;
@@ -86,7 +86,7 @@ TEST(AxisModel, IsTheTableOfMujocoSampleForSampleAndToHalfAPercentInRms) {
   const Rows mujoco = run_mujoco(file, *points);
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
     const auto set_points = references(*points, static_cast<Eigen::Index>(axis));
-    const std::vector<AxisRow> rows = simulate(axis_setup(file, axis), set_points);
+    const std::vector<AxisRow> rows = simulate(axis_setup(file, axis), set_points).rows;
     const double error = rms(mujoco[axis], set_points);
     EXPECT_GT(error, 2e-3);
     EXPECT_NEAR(rms(rows, set_points), error, 0.005 * error);
@@ -99,12 +99,12 @@ TEST(AxisModel, HumAndEncoderPhaseChangeTheRun) {
   const auto points = plan_set_points(TWIN_SOURCE_DIR "/nc_programs/square.nc", file);
   ASSERT_TRUE(points) << to_string(points.error());
   const auto set_points = references(*points, 0);
-  const std::vector<AxisRow> base = simulate(axis_setup(file, hal::kX), set_points);
+  const std::vector<AxisRow> base = simulate(axis_setup(file, hal::kX), set_points).rows;
   file.table.axis[hal::kX].drive.hum_phase = 1.0;
-  EXPECT_GT(largest_difference(base, simulate(axis_setup(file, hal::kX), set_points)), 1e-3);
+  EXPECT_GT(largest_difference(base, simulate(axis_setup(file, hal::kX), set_points).rows), 1e-3);
   file.table.axis[hal::kX].drive.hum_phase = 0.0;
   file.table.axis[hal::kX].encoder.phase = 0.1;
-  EXPECT_GT(largest_difference(base, simulate(axis_setup(file, hal::kX), set_points)), 1e-3);
+  EXPECT_GT(largest_difference(base, simulate(axis_setup(file, hal::kX), set_points).rows), 1e-3);
 }
 
 TEST(AxisModel, RecordedVoltsRepeatTheRun) {
@@ -112,7 +112,7 @@ TEST(AxisModel, RecordedVoltsRepeatTheRun) {
   const auto points = plan_set_points(TWIN_SOURCE_DIR "/nc_programs/square.nc", file);
   ASSERT_TRUE(points) << to_string(points.error());
   const AxisSetup setup = axis_setup(file, hal::kY);
-  const std::vector<AxisRow> closed = simulate(setup, references(*points, 1));
+  const std::vector<AxisRow> closed = simulate(setup, references(*points, 1)).rows;
   AxisModel model(setup);
   model.settle(0.0);
   for (const AxisRow& row : closed) {
@@ -129,11 +129,11 @@ TEST(AxisModel, AnUnstableLoopFailsAndStaysFinite) {
   for (std::size_t k = 0; k < set_points.size(); ++k) {
     set_points[k].position = k < 10 ? 0.0 : 10.0;
   }
-  bool has_failed = false;
-  for (const AxisRow& row : simulate(setup, set_points, &has_failed)) {
+  const AxisRun run = simulate(setup, set_points);
+  for (const AxisRow& row : run.rows) {
     EXPECT_TRUE(std::isfinite(row.table) && std::isfinite(row.encoder));
   }
-  EXPECT_TRUE(has_failed);
+  EXPECT_TRUE(run.has_failed);
 }
 
 TEST(Differentiate, IsExactWhereTheJerkIsConstant) {

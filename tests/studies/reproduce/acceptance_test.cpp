@@ -12,7 +12,7 @@ namespace twin::studies::reproduce {
 namespace acceptance_test {
 
 TEST(PublishedTables, AreReproducedByOneSetOfParameters) {
-  const twin::test::TempFolder folder;
+  const test::TempFolder folder;
   Request request;
   request.published = *published();
   request.machine_file = *config::find_machine(TWIN_SOURCE_DIR "/mjcf/xy_table.toml");

@@ -4,26 +4,26 @@
 
 #include <utility>
 
-#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/published_columns.hpp"
 #include "studies/reproduce/reproduction.hpp"
 
-namespace twin::studies::reproduce::test {
+namespace twin::test {
 
 /// A reproduction whose figures are the published ones times a factor.
-inline Reproduction scaled(double single, double mean) {
-  Reproduction result;
+inline studies::reproduce::Reproduction scaled(double single, double mean) {
+  studies::reproduce::Reproduction result;
   result.source = "the \"paper\" & its tables";
   result.machine = "table";
   result.repeats = 3;
   result.variants[0].name = "as_published";
   result.variants[1].name = "defaults";
-  const auto paper = published();
-  for (Variant& variant : result.variants) {
+  const auto paper = studies::reproduce::published();
+  for (studies::reproduce::Variant& variant : result.variants) {
     variant.title = variant.name;
-    for (const PublishedRow& row : paper->rows) {
-      Answer answer;
+    for (const studies::reproduce::PublishedRow& row : paper->rows) {
+      studies::reproduce::Answer answer;
       answer.published = row;
-      for (const double figure : row.figures) {
+      for (const double figure : row.values) {
         answer.single.push_back(single * figure);
         answer.repeats.push_back({mean * figure, 0.1 * figure});
       }
@@ -33,4 +33,4 @@ inline Reproduction scaled(double single, double mean) {
   return result;
 }
 
-}  // namespace twin::studies::reproduce::test
+}  // namespace twin::test

@@ -1,7 +1,8 @@
 #include <csignal>
 #include <thread>
 
-#include "tests/cli/cli_fixture.hpp"
+#include "tests/support/cli_fixture.hpp"
+#include "tests/support/files.hpp"
 
 // The whole command, on the simulated table.
 namespace twin::studies::reproduce {
@@ -9,12 +10,9 @@ namespace command_test {
 
 using ::testing::HasSubstr;
 
-class ReproduceCommand : public twin::test::CliTest {
+class ReproduceCommand : public test::CliTest {
  protected:
-  std::string text(const std::string& name) const {
-    std::ifstream in(folder / name);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text(const std::string& name) const { return test::content(folder / name); }
 };
 
 TEST_F(ReproduceCommand, WritesTheSameTablesEveryTime) {
@@ -35,7 +33,7 @@ TEST_F(ReproduceCommand, WritesTheSameTablesEveryTime) {
 }
 
 TEST_F(ReproduceCommand, InterruptLeavesNothing) {
-  twin::test::Child child({"reproduce", "--out", "out"}, {folder.path(), {}});
+  test::Child child({"reproduce", "--out", "out"}, {folder.path(), {}});
   for (int i = 0; i < 500 && !exists("out"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

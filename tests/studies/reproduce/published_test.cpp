@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "studies/reproduce/figure_kinds.hpp"
+#include "studies/reproduce/published_columns.hpp"
 
 namespace twin::studies::reproduce {
 namespace published_test {
@@ -28,7 +28,7 @@ TEST(Published, Tables4And5HaveFiftySixFigures) {
   std::map<int, int> figures;
   std::map<int, int> rows;
   for (const PublishedRow& row : paper->rows) {
-    figures[row.table] += static_cast<int>(row.figures.size());
+    figures[row.table] += static_cast<int>(row.values.size());
     ++rows[row.table];
   }
   EXPECT_EQ(figures[4] + figures[5], 56);
@@ -41,12 +41,12 @@ TEST(Published, SomeFiguresAreThoseOfThePaper) {
   ASSERT_TRUE(paper);
   const auto* const oxalis = find(*paper, 4, "nurbs", 2000);
   ASSERT_NE(oxalis, nullptr);
-  EXPECT_EQ(oxalis->figures, (std::vector<double>{19.0, 5.4, 35.7, 5.1, 51.9, 6.5, 9.509}));
+  EXPECT_EQ(oxalis->values, (std::vector<double>{19.0, 5.4, 35.7, 5.1, 51.9, 6.5, 9.509}));
   const auto* const dolphin = find(*paper, 5, "bezier", 3000);
   ASSERT_NE(dolphin, nullptr);
-  EXPECT_EQ(dolphin->figures, (std::vector<double>{30.0, 5.5, 68.0, 5.8, 35.5, 5.9, 9.201}));
+  EXPECT_EQ(dolphin->values, (std::vector<double>{30.0, 5.5, 68.0, 5.8, 35.5, 5.9, 9.201}));
   EXPECT_EQ(dolphin->name(), "dolphin, Fast Bezier 3,000 mm/min");
-  EXPECT_EQ(find(*paper, 3, "nurbs", 3000)->figures,
+  EXPECT_EQ(find(*paper, 3, "nurbs", 3000)->values,
             (std::vector<double>{1006, 53, 18.98, 3.66, 0.66}));
 }
 
@@ -56,7 +56,7 @@ TEST(Published, RootMeanSquareIsBelowTheMaximum) {
   for (const PublishedRow& row : paper->rows) {
     if (is_measured(row.table)) {
       for (std::size_t i = 0; i < 6; i += 2) {
-        EXPECT_GT(row.figures[i], 2.0 * row.figures[i + 1]) << row.name();
+        EXPECT_GT(row.values[i], 2.0 * row.values[i + 1]) << row.name();
       }
     }
   }
@@ -68,7 +68,7 @@ TEST(Published, CompressionFactorIsTheRatioOfTheBlocks) {
   ASSERT_TRUE(paper);
   for (const PublishedRow& row : paper->rows) {
     if (row.table == 3) {
-      EXPECT_NEAR(row.figures[0] / row.figures[1], row.figures[2], 0.005);
+      EXPECT_NEAR(row.values[0] / row.values[1], row.values[2], 0.005);
     }
   }
 }

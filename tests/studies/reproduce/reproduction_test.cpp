@@ -8,9 +8,8 @@
 
 #include "config/find_file.hpp"
 #include "hal/ideal/ideal_machine.hpp"
-#include "studies/reproduce/figure_kinds.hpp"
-#include "studies/reproduce/files.hpp"
-#include "studies/reproduce/write_results.hpp"
+#include "studies/reproduce/published_columns.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
 #include "tests/support/temp_folder.hpp"
 
 // Rows run on a machine that is always where it is told to be: what remains is the command's own.
@@ -38,7 +37,7 @@ class ReproductionTest : public ::testing::Test {
   }
 
   Request request;
-  twin::test::TempFolder folder;
+  test::TempFolder folder;
 };
 
 TEST_F(ReproductionTest, EachRowIsAnsweredInBothWays) {
@@ -83,7 +82,7 @@ TEST_F(ReproductionTest, LandingOnCurveEndsTakesLonger) {
 TEST_F(ReproductionTest, TwoTimesGiveTheSameTables) {
   const auto first = reproduce(request);
   ASSERT_TRUE(first);
-  const twin::test::TempFolder other;
+  const test::TempFolder other;
   request.folder = other.path();
   const auto second = reproduce(request);
   ASSERT_TRUE(second);
@@ -122,7 +121,7 @@ TEST_F(ReproductionTest, ResultsAreWrittenWithoutTracesOfTheWork) {
     request.folder = workshop->folder();
     const auto result = reproduce(request);
     ASSERT_TRUE(result) << to_string(result.error());
-    const auto written = write_results(*result, *workshop, true);
+    const auto written = write_results(*result, *workshop, pictures::Drawing::kDrawn);
     ASSERT_TRUE(written) << to_string(written.error());
   }
   std::set<std::string> names;

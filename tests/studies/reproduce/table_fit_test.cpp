@@ -48,12 +48,12 @@ TEST(TableRun, HasTheErrorsOfARunOnTheTableOfMujoco) {
   const auto planned = studies::identify::TableRun::plan(request.program, request.machine);
   ASSERT_TRUE(planned);
   const studies::identify::RunErrors errors = planned->run(request.machine);
-  const results::MachineFigures& judge = *run->summary.run;
+  const results::MachineResults& judge = *run->summary.run;
   EXPECT_NEAR(planned->machining_time(), judge.machining_time, 1e-9);
   EXPECT_NEAR(errors.contour_rms, judge.contour_error.rms, 0.005 * judge.contour_error.rms);
   EXPECT_NEAR(errors.contour_max, judge.contour_error.max, 0.05 * judge.contour_error.max);
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const results::ErrorFigures& tracking = judge.tracking_error[axis];
+    const results::ErrorStats& tracking = judge.tracking_error[axis];
     EXPECT_NEAR(errors.axis_rms[axis], tracking.rms, 0.005 * tracking.rms);
     EXPECT_NEAR(errors.axis_max[axis], tracking.max, 0.05 * tracking.max);
   }

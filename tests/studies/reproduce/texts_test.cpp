@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "answers.hpp"
-#include "studies/reproduce/files.hpp"
-#include "studies/reproduce/table_grids.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
+#include "studies/reproduce/reproduction_tables.hpp"
 
 // Well-formed tables, page and files, whatever the figures.
 namespace twin::studies::reproduce {

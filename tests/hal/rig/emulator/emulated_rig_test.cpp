@@ -12,8 +12,8 @@
 namespace twin::hal::rig::emulator {
 namespace emulated_rig_test {
 
-using testing::EmulatorBench;
-using testing::kPeriod;
+using test::EmulatorBench;
+using test::kPeriod;
 
 /// Voltages of one axis over time: a slow wave, steps, and what no controller would write [V].
 std::vector<double> wild_volts(unsigned seed, int periods) {
@@ -31,9 +31,9 @@ std::vector<double> wild_volts(unsigned seed, int periods) {
 /// Drives the machine and the boards alike and counts the periods in which they differ.
 int differing_periods(const RigSettings& wiring, double sign_x, double sign_y) {
   constexpr int kPeriods = 5000;
-  mujoco::MujocoMachine machine(hal::testing::default_table());
-  EXPECT_TRUE(machine.configure(kPeriod));
-  EXPECT_TRUE(machine.activate());
+  mujoco::MujocoMachine machine(test::default_table());
+  EXPECT_TRUE(checked(machine.configure(kPeriod)));
+  EXPECT_TRUE(checked(machine.activate()));
   EmulatorBench bench(wiring);
   const std::vector<double> x = wild_volts(3, kPeriods);
   const std::vector<double> y = wild_volts(8, kPeriods);
@@ -84,7 +84,7 @@ TEST(EmulatedRig, ExchangedChannelsLeadToTheSameAxes) {
 }
 
 TEST(EmulatedRig, TheCodeOfZeroVoltsIsExactlyZero) {
-  EmulatorBench bench(RigSettings{}, {}, testing::quiet_table());
+  EmulatorBench bench(RigSettings{}, {}, test::quiet_table());
   bench.write(0.0, 0.0);
   bench.pass(500);
   EXPECT_EQ(bench.rig.truth().table_position[kX], 0.0);
@@ -92,7 +92,7 @@ TEST(EmulatedRig, TheCodeOfZeroVoltsIsExactlyZero) {
 }
 
 TEST(EmulatedRig, SwitchesAndAlarmsStandAtTheirInputs) {
-  mujoco::TableParams table = hal::testing::default_table();
+  mujoco::TableParams table = test::default_table();
   table.axis[kX].travel = 10.0;
   EmulatorBench bench(RigSettings{}, {}, table);
   const RigSettings wiring;
@@ -144,7 +144,7 @@ TEST(EmulatedRig, AnalogueInputsSeeTheConverters) {
 
 TEST(EmulatedRig, TheRangeWordDecidesWhatACodeIs) {
   const auto velocity_at = [](std::uint16_t range, std::uint16_t code) {
-    EmulatorBench bench(RigSettings{}, {}, testing::quiet_table());
+    EmulatorBench bench(RigSettings{}, {}, test::quiet_table());
     bench.write(0.0, 0.0);
     bench.pci1716.write16(0x0E, range);
     bench.pci1716.write16(0x0A, code);
@@ -170,7 +170,7 @@ TEST(EmulatedRig, AReadBackSeesTheTerminalsOfItsDrive) {
 }
 
 TEST(EmulatedRig, TheIndexComesOnceARevolution) {
-  EmulatorBench bench(RigSettings{}, {}, testing::quiet_table());
+  EmulatorBench bench(RigSettings{}, {}, test::quiet_table());
   bench.write(0.6, 0.0);  // 50 mm/s, lead 10 mm
   int seen = 0;
   for (int k = 0; k < 2050; ++k) {
@@ -184,7 +184,7 @@ TEST(EmulatedRig, TheIndexComesOnceARevolution) {
 }
 
 TEST(EmulatedRig, TheIndexIsAtTheSamePlaceFromBothSides) {
-  EmulatorBench bench(RigSettings{}, {}, testing::quiet_table());
+  EmulatorBench bench(RigSettings{}, {}, test::quiet_table());
   const auto index_at = [&bench](double volts) {
     bench.pci1784.write32(0x2C, 0x10);  // index resets counter 0
     bench.pci1784.read32(0x24);
@@ -203,7 +203,7 @@ TEST(EmulatedRig, TheIndexIsAtTheSamePlaceFromBothSides) {
 }
 
 TEST(EmulatedRig, FastEdgesGetLostAtASlowFilter) {
-  mujoco::TableParams table = testing::quiet_table();
+  mujoco::TableParams table = test::quiet_table();
   table.axis[kX].encoder.mm_per_count = 10.0 / 65536.0;  // 16384 pulses a revolution
   EmulatorBench bench(RigSettings{}, {}, table);
   bench.write(6.0, 0.0);  // 3000 rpm: 3.28 MHz of edges, filter 1 MHz
@@ -214,7 +214,7 @@ TEST(EmulatedRig, FastEdgesGetLostAtASlowFilter) {
 }
 
 TEST(EmulatedRig, CountsAllAtTheFastestFilter) {
-  mujoco::TableParams table = testing::quiet_table();
+  mujoco::TableParams table = test::quiet_table();
   table.axis[kX].encoder.mm_per_count = 10.0 / 65536.0;
   EmulatorBench bench(RigSettings{}, {}, table);
   bench.pci1784.write32(0x24, 0x00010003);
@@ -230,9 +230,9 @@ TEST(EmulatedRig, APeriodAllocatesNothing) {
                       {{FaultKind::kAlarm, kX, 0.05}, {FaultKind::kCardGone1784, kX, 0.1}});
   bench.write(0.5, 0.5);
   bench.pass(2);
-  const std::int64_t before = hal::testing::allocations();
+  const std::int64_t before = test::allocations();
   bench.pass(200);
-  EXPECT_EQ(hal::testing::allocations(), before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_GT(bench.rig.events().written(), 3U);
 }
 

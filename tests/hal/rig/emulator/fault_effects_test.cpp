@@ -8,14 +8,14 @@
 namespace twin::hal::rig::emulator {
 namespace fault_effects_test {
 
-using testing::EmulatorBench;
+using test::EmulatorBench;
 
 constexpr double kScale = 0.010;  // of the encoder [mm/count]
 
 /// A bench whose X axis moves at 25 mm/s, and its Y axis as well.
 class FaultEffects : public ::testing::Test {
  protected:
-  FaultEffects() : bench(RigSettings{}, {}, testing::quiet_table()) {
+  FaultEffects() : bench(RigSettings{}, {}, test::quiet_table()) {
     bench.write(0.3, 0.3);
     bench.pass(300);
   }

@@ -15,7 +15,7 @@
 #include "hal/rig/boards/emulated_pci1784.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 #include "hal/rig/emulator/shared_bench.hpp"
-#include "tests/hal/table_files.hpp"
+#include "tests/support/table_files.hpp"
 
 namespace twin::hal::rig::emulator {
 namespace serve_test {
@@ -63,7 +63,7 @@ class Serve : public ::testing::Test {
   void start(ServeSettings settings = {}) {
     settings.name = name;
     thread_ = std::thread([this, settings] {
-      result = serve(hal::testing::default_table(), RigSettings{}, settings, stop_,
+      result = serve(test::default_table(), RigSettings{}, settings, stop_,
                      [this](std::string_view line) {
                        const std::lock_guard lock(mutex_);
                        lines_.emplace_back(line);
@@ -192,8 +192,8 @@ TEST_F(Serve, ASecondEmulatorIsRefused) {
   start();
   ASSERT_NE(attach(name), nullptr);
   const std::atomic<bool> stop{false};
-  const auto second = serve(hal::testing::default_table(), RigSettings{}, {.name = name}, stop,
-                            [](std::string_view) {});
+  const auto second =
+      serve(test::default_table(), RigSettings{}, {.name = name}, stop, [](std::string_view) {});
   ASSERT_FALSE(second);
   EXPECT_THAT(second.error().message, HasSubstr("an emulator is running already"));
 }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <thread>
 
+#include "tests/support/guard_view.hpp"
 #include "tests/support/temp_folder.hpp"
 
 // The guard as the program it is. Its card is an ordinary file in place of a sysfs resource.
@@ -68,10 +69,13 @@ TEST_F(GuardProcessTest, LeavesTheCardAloneWhileAllIsWell) {
     GuardProcess guard;
     ASSERT_TRUE(guard.start(target));
     guard.arm();
-    for (int i = 0; i < 20; ++i) {
+    const test::GuardView view(guard.pid());
+    ASSERT_TRUE(view.is_there());
+    const std::uint64_t before = view.turns();
+    EXPECT_TRUE(becomes([&] {
       guard.beat();
-      std::this_thread::sleep_for(1ms);
-    }
+      return view.turns() >= before + 20;
+    }));
     EXPECT_FALSE(guard.has_acted());
     EXPECT_TRUE(guard.is_alive());
   }

@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "tests/hal/rig/as_nobody.hpp"
-#include "tests/hal/rig/sysfs_tree.hpp"
+#include "tests/support/sysfs_tree.hpp"
 
 namespace twin::hal::rig::io_port {
 namespace find_card_test {
 
-using testing::AsNobody;
+using test::AsNobody;
+using test::SysfsTree;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::SysfsTree;
 
 constexpr const char* kA = "0000:03:00.0";
 constexpr const char* kB = "0000:04:00.0";

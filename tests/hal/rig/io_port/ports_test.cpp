@@ -13,8 +13,8 @@
 namespace twin::hal::rig::io_port {
 namespace ports_test {
 
+using test::AsNobody;
 using test::TempFolder;
-using testing::AsNobody;
 using ::testing::HasSubstr;
 
 TEST(SysfsPort, AccessesAreAsWideAsCalledAndAtTheirOffset) {

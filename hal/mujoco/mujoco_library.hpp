@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <string>
+
+#include "core/error.hpp"
+
+namespace twin::hal::mujoco {
+
+/// The functions of libmujoco that this room calls, each under its name without the prefix.
+///
+/// The library is loaded when a model is first read: a program that reads none starts without it.
+/// It then stays loaded until the process ends. Whatever else in the process links libmujoco shares
+/// it.
+class MujocoLibrary {
+ public:
+  /// Loads the library at the first call and installs the handlers of mujoco_errors.hpp; a later
+  /// call returns what the first one did. Not real-time safe.
+  /// @returns a kModel error where the library or a function of it is missing, or where its version
+  /// is not that of the headers
+  static Expected<const MujocoLibrary*> load();
+  /// The library, once load() has succeeded. Real-time safe.
+  static const MujocoLibrary& loaded() noexcept;
+
+  /// What load() does at its first call, for a library by its name or path.
+  static Expected<MujocoLibrary> open(const std::string& file);
+
+  decltype(&::mj_loadXML) load_xml = nullptr;
+  decltype(&::mj_deleteModel) delete_model = nullptr;
+  decltype(&::mj_makeData) make_data = nullptr;
+  decltype(&::mj_deleteData) delete_data = nullptr;
+  decltype(&::mj_name2id) name_to_id = nullptr;
+  decltype(&::mj_setConst) set_const = nullptr;
+  decltype(&::mj_resetData) reset_data = nullptr;
+  decltype(&::mj_step) step = nullptr;
+
+ private:
+  MujocoLibrary() = default;
+};
+
+}  // namespace twin::hal::mujoco

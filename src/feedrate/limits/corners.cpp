@@ -1,0 +1,123 @@
+#include "feedrate/limits/corners.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "feedrate/tolerances.hpp"
+
+namespace twin::feedrate {
+namespace {
+
+/// Share of J_max that a hidden corner may seem to be. It trades feedrate at such corners for jerk
+/// that the set points seem to have: twice as much allows twice the feedrate.
+constexpr double kRipple = 0.1;
+
+double turn_between(const Vec3& before, const Vec3& after) {
+  return std::atan2(before.cross(after).norm(), before.dot(after));
+}
+
+/// Corner feedrate of the acceleration rule. The feedrate is lowest at the corner itself and
+/// averages J T^2 / 6 more over the periods on either side, where the set points see it.
+double passing_feedrate(double turn, double curvature, const RampLimits& ramp, double period) {
+  const double corner = corner_acceleration_feedrate(turn, curvature, ramp.acceleration, period);
+  return std::max(corner - ramp.jerk * period * period / 6.0, 0.5 * corner);
+}
+
+}  // namespace
+
+double corner_model_feedrate(double turn, double corner_error,
+                             const PlanningModel& model) noexcept {
+  const double c = std::sin(0.5 * turn);  // cos(theta / 2)
+  return c > 0.0 ? model.kp / (1.0 - model.kf) * corner_error / c
+                 : std::numeric_limits<double>::infinity();
+}
+
+double corner_acceleration_feedrate(double turn, double curvature, double acceleration,
+                                    double period) noexcept {
+  const double c = 2.0 * std::sin(0.5 * turn);
+  const double k = curvature * period;
+  const double at = acceleration * period;
+  const double root = c + std::sqrt(c * c + 4.0 * k * at);  // 2 A T / v
+  return root > 0.0 ? 2.0 * at / root : std::numeric_limits<double>::infinity();
+}
+
+double corner_ripple_feedrate(double turn, double jerk, double period) noexcept {
+  return turn > 0.0 ? 2.0 * kRipple * jerk * period * period / (turn * turn)
+                    : std::numeric_limits<double>::infinity();
+}
+
+JunctionLimits::JunctionLimits(const Limits& limits, const PlanningModel& model, double period)
+    : limits_(limits), model_(model), ramp_{limits.acceleration, limits.jerk}, period_(period) {}
+
+void JunctionLimits::append(const path::Segment& before, const path::Segment& after, double s,
+                            std::vector<LimitZone>& zones) {
+  if (before.stops_at_end || after.length == 0.0) {
+    zones.push_back({s, s, 0.0});
+    turns_.clear();
+    return;
+  }
+  const double turn = turn_between(before.end.tangent, after.begin.tangent);
+  if (turn < kNoTurn) {
+    return;
+  }
+  const double reach = limits_.feedrate * period_;
+  const double curvature = std::max(curvature_near(SegmentEnd::kEnd, before, reach),
+                                    curvature_near(SegmentEnd::kBegin, after, reach));
+  const double corner_error = std::min(before.corner_error, after.corner_error);
+  double limit = std::min(corner_model_feedrate(turn, corner_error, model_),
+                          passing_feedrate(turn, curvature, ramp_, period_));
+  if (turn < kSharpTurn && curvature > 0.0) {
+    limit = std::min(limit, std::max(kHidingShare * turn / (curvature * period_),
+                                     corner_ripple_feedrate(turn, limits_.jerk, period_)));
+  }
+  zones.push_back({s, s, limit});
+  limit_cluster(turn, s, zones);
+}
+
+/// Limits corners a few periods apart by each other. Where the turns of several corners, over the
+/// distance l from the first to the last, sum to phi, either the feedrate keeps them apart
+/// (v T <= l), or it obeys the corner rule for phi. Where one corner hides another from the set
+/// points, either the feedrate puts kHidingPeriods between them, or it keeps the ripple small.
+void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>& zones) {
+  LimitZone& latest = zones.back();
+  const auto lower = [](LimitZone& zone, double limit) {
+    zone.limit = std::min(zone.limit, limit);
+  };
+  double sum = turn;
+  for (std::size_t i = turns_.size(); i-- > 0;) {
+    const Turn& old = turns_[i];
+    const double apart = (s - old.s) / period_;
+    if (apart >= kHidingPeriods * latest.limit) {
+      break;
+    }
+    sum += old.angle;
+    LimitZone& zone = zones[old.zone];
+    const double together = passing_feedrate(std::min(sum, std::numbers::pi), 0.0, ramp_, period_);
+    lower(latest, std::max(apart, together));
+    lower(zone, std::max(apart, together));
+    const auto limit_hidden = [&](double hidden, double hiding, LimitZone& place) {
+      if (hidden < kSharpTurn && hiding > kHidingShare * hidden) {
+        lower(place, std::max(apart / kHidingPeriods,
+                              corner_ripple_feedrate(hidden, limits_.jerk, period_)));
+      }
+    };
+    limit_hidden(turn, old.angle, latest);
+    limit_hidden(old.angle, turn, zone);
+  }
+  const double forget = s - kHidingPeriods * limits_.feedrate * period_;
+  std::erase_if(turns_, [&](const Turn& past) { return past.s < forget; });
+  turns_.push_back({s, turn, zones.size() - 1});
+}
+
+void JunctionLimits::forget(double distance, std::size_t zones) {
+  std::erase_if(turns_, [&](const Turn& turn) { return turn.zone < zones; });
+  for (Turn& turn : turns_) {
+    turn.s -= distance;
+    turn.zone -= zones;
+  }
+}
+
+}  // namespace twin::feedrate

@@ -1,0 +1,125 @@
+#include "feedrate/limits/zones.hpp"
+
+#include <algorithm>
+
+namespace twin::feedrate {
+namespace {
+
+/// Ratio of limits that share a zone. It trades time for work: up to 1 % of the feedrate is lost in
+/// a zone, and with twice the difference about half as many zones are planned.
+constexpr double kSameLimit = 1.01;
+
+/// Places of an arc outside the XY plane at which the rule is asked, where it depends on the
+/// heading: every 2 degrees of a circle. Twice as many follow the heading twice as closely.
+constexpr std::size_t kArcSamples = 181;
+
+/// Zones between successive samples.
+/// @param place  s of sample i, from the segment's start [mm]
+/// @param limit  limit at sample i [mm/s]
+template <class PlaceOf, class LimitOf>
+void append_sampled(std::size_t count, double s0, const PlaceOf& place, const LimitOf& limit_of,
+                    std::vector<LimitZone>& zones) {
+  ZoneRow row(zones);
+  double limit = limit_of(0);
+  for (std::size_t i = 1; i < count; ++i) {
+    const double next = limit_of(i);
+    row.append({s0 + place(i - 1), s0 + place(i), std::min(limit, next)});
+    limit = next;
+  }
+}
+
+void append_curve_limits(const path::FittedCurve& curve, double feedrate, double s0,
+                         const FeedrateRules& rules, std::vector<LimitZone>& zones) {
+  const bool needs_turning = rules.needs_turning();
+  append_sampled(
+      curve.curvature.size(), s0, [&](std::size_t i) { return curve.curvature[i].s; },
+      [&](std::size_t i) {
+        const geometry::CurvatureSample& sample = curve.curvature[i];
+        const LocalGeometry at =
+            needs_turning ? local_geometry(path::point_from(curve.curve.derivatives(sample.u)))
+                          : LocalGeometry{sample.curvature};
+        return rules.limit_at(at, feedrate, On::kCurve);
+      },
+      zones);
+}
+
+void append_tilted_arc_limits(const path::Arc& arc, double feedrate, double s0,
+                              const FeedrateRules& rules, std::vector<LimitZone>& zones) {
+  const auto place = [&](std::size_t i) {
+    return arc.length * static_cast<double>(i) / static_cast<double>(kArcSamples - 1);
+  };
+  append_sampled(
+      kArcSamples, s0, place,
+      [&](std::size_t i) {
+        return rules.limit_at(local_geometry(path::point_at(arc, place(i))), feedrate,
+                              On::kArcOrLine);
+      },
+      zones);
+}
+
+bool is_tilted(const path::Arc& arc) {
+  return arc.geometry.e1.z() != 0.0 || arc.geometry.e2.z() != 0.0;
+}
+
+}  // namespace
+
+void ZoneRow::append(const LimitZone& zone) {
+  if (!is_empty()) {
+    LimitZone& before = zones_.back();
+    const double low = std::min(before.limit, zone.limit);
+    if (std::max(highest_, zone.limit) <= kSameLimit * low) {
+      highest_ = std::max(highest_, zone.limit);
+      before.limit = low;
+      before.end = zone.end;
+      before.acceleration = std::min(before.acceleration, zone.acceleration);
+      before.jerk = std::min(before.jerk, zone.jerk);
+      return;
+    }
+  }
+  highest_ = zone.limit;
+  zones_.push_back(zone);
+}
+
+void ZoneRow::lower_last(double limit) noexcept { highest_ = zones_.back().limit = limit; }
+
+void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
+                           const FeedrateRules& rules, std::vector<LimitZone>& zones) {
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+    append_curve_limits(*curve, feedrate, s0, rules, zones);
+    return;
+  }
+  const auto* arc = std::get_if<path::Arc>(&segment.geometry);
+  if (arc != nullptr && rules.needs_turning() && is_tilted(*arc)) {
+    append_tilted_arc_limits(*arc, feedrate, s0, rules, zones);
+    return;
+  }
+  const double begin = segment.begin.curvature.norm();
+  const double end = segment.end.curvature.norm();
+  const LocalGeometry at = rules.needs_turning()
+                               ? local_geometry(begin < end ? segment.end : segment.begin)
+                               : LocalGeometry{std::max(begin, end)};
+  zones.push_back({s0, s0 + segment.length, rules.limit_at(at, feedrate, On::kArcOrLine)});
+}
+
+double curvature_near(SegmentEnd which, const path::Segment& segment, double distance) {
+  const bool at_end = which == SegmentEnd::kEnd;
+  double largest = (at_end ? segment.end : segment.begin).curvature.norm();
+  if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
+    const auto take = [&](const geometry::CurvatureSample& sample) {
+      const double away = at_end ? segment.length - sample.s : sample.s;
+      if (away > distance) {
+        return false;
+      }
+      largest = std::max(largest, sample.curvature);
+      return true;
+    };
+    if (at_end) {
+      std::all_of(curve->curvature.rbegin(), curve->curvature.rend(), take);
+    } else {
+      std::all_of(curve->curvature.begin(), curve->curvature.end(), take);
+    }
+  }
+  return largest;
+}
+
+}  // namespace twin::feedrate

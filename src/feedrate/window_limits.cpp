@@ -1,0 +1,98 @@
+#include "feedrate/window_limits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "feedrate/profile/ramps.hpp"
+
+namespace twin::feedrate {
+
+WindowLimits::WindowLimits(const Limits& limits, const PlanningModel& model, double period,
+                           std::unique_ptr<LimitSource> source, const PlanStart& start,
+                           double override_scale)
+    : limits_(limits),
+      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
+      source_(std::move(source)),
+      junctions_(limits, model, period),
+      start_(start),
+      override_scale_(override_scale) {}
+
+double WindowLimits::asked_feedrate(const path::Segment& segment) const {
+  if (override_scale_ == 1.0) {
+    return segment.feedrate;
+  }
+  const double scale = segment.is_rapid ? std::min(override_scale_, 1.0) : override_scale_;
+  return std::min(scale * segment.feedrate, std::max(limits_.feedrate, segment.feedrate));
+}
+
+void WindowLimits::append(const path::Segment& segment, Window& window) {
+  if (!window.segments.empty()) {
+    junctions_.append(window.segments.back(), segment, window.length, window.zones);
+  }
+  const double asked = asked_feedrate(segment);
+  window.fastest = std::max(window.fastest, asked);
+  const double down =
+      asked < start_.v
+          ? start_.s + ramp_distance(start_.v, asked, source_->least_ramp()) - window.length
+          : 0.0;
+  if (down > 0.0 && segment.length > 0.0) {
+    append_descent(segment, asked, down, window);
+    return;
+  }
+  const std::size_t first = window.zones.size();
+  source_->append(segment, window.length, asked, window.zones);
+  if (first > 0 && first < window.zones.size()) {
+    source_->merge(window.zones, first);
+  }
+}
+
+/// Appends the limits of a segment on which the start's feedrate comes down to the one asked for.
+/// Over the distance `down` the start's feedrate is asked for, then the segment's own.
+void WindowLimits::append_descent(const path::Segment& segment, double asked, double down,
+                                  Window& window) {
+  std::vector<LimitZone>& zones = window.zones;
+  const std::size_t first = zones.size();
+  const double border = window.length + std::min(down, segment.length);
+  source_->append(segment, window.length, start_.v, zones);
+  std::erase_if(zones, [&](const LimitZone& zone) { return zone.begin >= border; });
+  asked_zones_.clear();
+  source_->append(segment, window.length, asked, asked_zones_);
+  if (zones.size() > first) {
+    zones.back().end = std::min(zones.back().end, border);
+  }
+  for (LimitZone zone : asked_zones_) {
+    if (zone.end > border) {
+      zone.begin = std::max(zone.begin, border);
+      zones.push_back(zone);
+    }
+  }
+}
+
+RampLimits WindowLimits::brake_limits(const Window& window, std::size_t zone, double begin,
+                                      double end) const {
+  RampLimits least = ramp_;
+  if (!source_->has_zone_ramps()) {
+    return least;
+  }
+  double fastest = 0.0;
+  for (; zone < window.zones.size(); ++zone) {
+    const LimitZone& next = window.zones[zone];
+    if (next.begin < end) {
+      fastest = std::max(fastest, next.limit);
+    } else if (next.begin > end + ramp_distance(fastest, 0.0, least)) {
+      break;
+    }
+    if (next.end > begin) {
+      least.acceleration = std::min(least.acceleration, next.acceleration);
+      least.jerk = std::min(least.jerk, next.jerk);
+    }
+  }
+  return least;
+}
+
+void WindowLimits::forget(double distance, std::size_t zones) {
+  junctions_.forget(distance, zones);
+  start_.s -= distance;
+}
+
+}  // namespace twin::feedrate

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "core/realtime_settings.hpp"
+#include "hal/machine.hpp"
+#include "motion/safety/trip.hpp"
+#include "results/trace/sample.hpp"
+#include "runtime/cycle.hpp"
+#include "runtime/inline_planning.hpp"
+#include "runtime/pacer.hpp"
+#include "runtime/replanning.hpp"
+#include "runtime/sample_queue.hpp"
+
+namespace twin::runtime {
+
+/// How the motion keeps time: with the machine, with planning and with the recorder.
+class Pace {
+ public:
+  Pace() = default;
+  Pace(const Pace&) = delete;
+  Pace& operator=(const Pace&) = delete;
+  virtual ~Pace() = default;
+
+  /// Begins a period.
+  virtual hal::Status begin_period(Cycle& cycle) = 0;
+  /// Exchanges the set point of the period with the machine.
+  virtual hal::Status exchange(Cycle& cycle, results::Sample& sample) noexcept = 0;
+  /// Exchanges the last set point with the machine, at rest.
+  virtual hal::Status exchange_at_rest(Cycle& cycle) noexcept = 0;
+  /// Ends a period that has no set point of the path.
+  virtual hal::Status pass_idle(Cycle& cycle) noexcept = 0;
+
+  /// Whether so much is planned that the motion may start; waits for it where it may wait.
+  virtual bool wait_for_segment() noexcept = 0;
+  /// Waits until the sample queue has room. @returns false where the motion must not wait
+  virtual bool wait_for_room(SampleQueue& samples) noexcept = 0;
+
+  /// How the period began.
+  virtual WakeUp wake_up() const noexcept { return {}; }
+  /// Too many late periods in a row, or one too late.
+  virtual std::optional<motion::Trip> overrun() const noexcept { return std::nullopt; }
+  virtual std::int64_t late_periods() const noexcept { return 0; }
+  virtual double worst_latency() const noexcept { return 0.0; }  ///< of a period's begin [s]
+};
+
+/// Simulated time: one period follows the other as fast as they can be computed. The motion waits
+/// for planning and for the recorder, so the result does not depend on the timing of threads.
+///
+/// A period begins with its set point. The machine's time passes in exchange(), so it stands still
+/// in a period that has no set point.
+class LockstepPace final : public Pace {
+ public:
+  /// @param stop  is set if planning fails
+  LockstepPace(InlinePlanning& planning, std::atomic<bool>& stop)
+      : planning_(planning), stop_(stop) {}
+
+  hal::Status begin_period(Cycle& /*cycle*/) override { return hal::Status::kOk; }
+  hal::Status exchange(Cycle& cycle, results::Sample& sample) noexcept override {
+    return cycle.exchange(sample);
+  }
+  hal::Status exchange_at_rest(Cycle& cycle) noexcept override { return cycle.hold(); }
+  hal::Status pass_idle(Cycle& /*cycle*/) noexcept override { return hal::Status::kOk; }
+  bool wait_for_segment() noexcept override;
+  bool wait_for_room(SampleQueue& samples) noexcept override;
+
+ private:
+  InlinePlanning& planning_;
+  std::atomic<bool>& stop_;
+};
+
+/// The wall clock: one period of the cycle per period of the clock, and no waiting for anybody.
+///
+/// A period begins with reading the machine, at the instant that the clock gives.
+class WallClockPace final : public Pace {
+ public:
+  struct Options {
+    double period = 0.001;      ///< [s]
+    RealtimeSettings realtime;  ///< when a period is too late
+    Schedule schedule = Schedule::kShifted;
+    std::function<void(std::int64_t)> before_period;  ///< see TestHooks
+  };
+  /// @param clock  outlives the pace
+  WallClockPace(const PlanSupply& supply, Clock& clock, const Options& options);
+
+  hal::Status begin_period(Cycle& cycle) override;
+  hal::Status exchange(Cycle& cycle, results::Sample& sample) noexcept override;
+  hal::Status exchange_at_rest(Cycle& cycle) noexcept override { return cycle.respond_at_rest(); }
+  hal::Status pass_idle(Cycle& cycle) noexcept override { return cycle.respond_at_rest(); }
+  bool wait_for_segment() noexcept override { return supply_.is_primed(); }
+  bool wait_for_room(SampleQueue& /*samples*/) noexcept override { return false; }
+  WakeUp wake_up() const noexcept override { return wake_up_; }
+  std::optional<motion::Trip> overrun() const noexcept override { return pacer_.overrun(); }
+  std::int64_t late_periods() const noexcept override { return pacer_.late_periods(); }
+  double worst_latency() const noexcept override { return pacer_.worst_latency(); }
+
+ private:
+  const PlanSupply& supply_;
+  Pacer pacer_;
+  std::function<void(std::int64_t)> before_period_;
+  WakeUp wake_up_{};
+  std::int64_t periods_ = 0;  // begun
+};
+
+}  // namespace twin::runtime

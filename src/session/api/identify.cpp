@@ -1,0 +1,31 @@
+#include "studies/identify/identify.hpp"
+
+#include <fmt/format.h>
+
+#include "session/api/inside.hpp"
+#include "studies/identify/columns.hpp"
+#include "studies/identify/report.hpp"
+
+namespace twin {
+
+Identification identify(const std::vector<std::string>& traces, const Settings& start,
+                        const IdentifyOptions& options) {
+  namespace inner = studies::identify;
+  const config::MachineFile& machine = Inside::of(start);
+  const auto columns = value_of(inner::parse_columns(options.columns));
+  std::vector<inner::Recording> recordings;
+  for (const std::string& trace : traces) {
+    recordings.push_back(value_of(inner::read_recording(trace, columns, machine.limits)));
+  }
+  inner::FitOptions fit;
+  fit.evaluations = options.evaluations > 0 ? options.evaluations : fit.evaluations;
+  fit.seed = options.seed;
+  fit.fixed = options.fixed;
+  fit.freed = options.freed;
+  fit.progress = options.progress;
+  const inner::Identification result = value_of(inner::identify(recordings, machine, fit));
+  return {Inside::settings(result.machine), inner::to_machine_file(result), inner::to_table(result),
+          inner::to_json(result, ""), result.notes};
+}
+
+}  // namespace twin

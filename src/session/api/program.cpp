@@ -1,0 +1,45 @@
+#include <cmath>
+#include <filesystem>
+
+#include "config/find_file.hpp"
+#include "runtime/program_check.hpp"
+#include "session/api/inside.hpp"
+
+namespace twin {
+
+Program::Program(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+Program Program::from_file(const std::string& name) {
+  return Program(std::make_shared<Data>(Data{value_of(config::find_program(name)), std::nullopt}));
+}
+
+Program Program::from_text(std::string text, std::string name) {
+  return Program(std::make_shared<Data>(
+      Data{runtime::ProgramSource::from_text(std::move(text), std::move(name)), std::nullopt}));
+}
+
+Program Program::with_feedrate(double feedrate) const {
+  if (!(feedrate > 0.0) || !std::isfinite(feedrate)) {
+    throw Failure({ErrorCode::kUsage,
+                   "the feedrate is " + std::to_string(feedrate) + " mm/s; it must be above 0",
+                   {},
+                   0,
+                   0});
+  }
+  return Program(std::make_shared<Data>(Data{data_->source, feedrate}));
+}
+
+std::string Program::name() const { return data_->source.file.filename().string(); }
+
+ProgramFigures Program::check(const Settings& settings) const {
+  const auto found = value_of(runtime::check_program(data_->source, {.feedrate = data_->feedrate},
+                                                     Inside::of(settings).limits));
+  ProgramFigures figures{.blocks = found.blocks, .length = found.length};
+  for (std::size_t i = 0; i < 3; ++i) {
+    figures.box_min[i] = found.box_min[static_cast<Eigen::Index>(i)];
+    figures.box_max[i] = found.box_max[static_cast<Eigen::Index>(i)];
+  }
+  return figures;
+}
+
+}  // namespace twin

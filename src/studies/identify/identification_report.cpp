@@ -1,0 +1,249 @@
+#include "studies/identify/identification_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "config/binding.hpp"
+#include "core/json.hpp"
+#include "core/text_table.hpp"
+#include "core/units.hpp"
+
+namespace twin::studies::identify {
+namespace {
+
+constexpr std::size_t kReasonWidth = 76;  // of a line of a reason
+constexpr TextLayout kParameters{.notes = Notes::kShown};
+constexpr TextLayout kPredictions{.row_width = 27, .cell_width = 7};
+
+bool is_found(const FittedParameter& parameter) {
+  return parameter.verdict == Verdict::kIdentified || parameter.verdict == Verdict::kMeasured;
+}
+
+/// Digits so that the uncertainty shows with two of them.
+std::string with_digits_of(double sigma, double value) {
+  if (!(sigma > 0.0) || !std::isfinite(sigma)) {
+    return fmt::format("{:.6g}", value);
+  }
+  const int digits = static_cast<int>(std::ceil(1.0 - std::log10(sigma)));
+  return fmt::format("{:.{}f}", value, std::clamp(digits, 0, 6));
+}
+
+/// Unit of a key as people write it; empty for a plain number.
+std::string unit_of(const std::string& key) {
+  config::MachineFile machine;
+  for (const config::Binding& binding : config::bindings(machine)) {
+    if (binding.path() == key) {
+      return config::pretty_unit(binding.unit);
+    }
+  }
+  return {};
+}
+
+std::string relative_text(const FittedParameter& p) {
+  if (p.verdict == Verdict::kFixed || !(p.sigma > 0.0)) {
+    return "";
+  }
+  if (p.relative < 1e-4) {
+    return "< 0.01 %";
+  }
+  return p.relative > 9.99 ? "> 999 %" : fmt::format("{:.2g} %", 100.0 * p.relative);
+}
+
+/// Where the value of a parameter comes from, in a word of the table.
+const char* origin_of(const FittedParameter& p) {
+  switch (p.verdict) {
+    case Verdict::kIdentified:
+      return "identified";
+    case Verdict::kMeasured:
+      return "measured";
+    case Verdict::kUnidentified:
+    case Verdict::kAtBound:
+      return "start";
+    case Verdict::kFixed:
+      return "fixed";
+  }
+  return "";
+}
+
+Line parameter_line(const FittedParameter& p) {
+  const bool has_sigma = is_found(p) && p.sigma > 0.0;
+  return {.row = p.name,
+          .what = unit_of(p.key),
+          .cells = {{with_digits_of(has_sigma ? p.sigma : 0.0, p.value)},
+                    {has_sigma ? with_digits_of(p.sigma, p.sigma) : ""},
+                    {is_found(p) ? relative_text(p) : ""}},
+          .note = origin_of(p)};
+}
+
+/// "moving mass: shows only together with ..." in lines of the terminal's width.
+std::string reason_text(const FittedParameter& p) {
+  std::string text;
+  std::string line = "  " + p.name + ":";
+  std::istringstream words(p.why);
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > kReasonWidth) {
+      text += line + "\n";
+      line = "   ";
+    }
+    line += " " + word;
+  }
+  return text + line + "\n";
+}
+
+std::string axis_table(const AxisFit& fit, hal::Axis axis) {
+  TextTable table;
+  table.row_head = axis == hal::kX ? "X axis" : "Y axis";
+  table.head = {"value", "1 sigma", "relative"};
+  std::string reasons;
+  for (const FittedParameter& parameter : fit.parameters) {
+    table.lines.push_back(parameter_line(parameter));
+    reasons += parameter.why.empty() ? "" : reason_text(parameter);
+  }
+  std::string text = "\n" + to_text(table, kParameters);
+  text += fmt::format("residual {:.3g} um RMS", units::um_from_mm(fit.residual_rms));
+  if (fit.rounding_rms > 0.0) {
+    text += fmt::format("; rounding to counts alone makes {:.3g} um",
+                        units::um_from_mm(fit.rounding_rms));
+  }
+  text += "\n";
+  return reasons.empty() ? text
+                         : text + "not identified, these keep their starting values:\n" + reasons;
+}
+
+/// Tracking errors measured and of the identified machine.
+std::string prediction_table(const std::vector<Prediction>& predictions) {
+  TextTable table;
+  table.row_head = "tracking error [um]";
+  table.head = {"measured RMS", "max", "model RMS", "max", "change"};
+  for (const Prediction& p : predictions) {
+    const auto cell = [](double error) {
+      return Cell{fmt::format("{:.3f}", units::um_from_mm(error))};
+    };
+    table.lines.push_back(
+        {.row = std::filesystem::path(p.trace).filename().string(),
+         .what = p.axis == hal::kX ? "X" : "Y",
+         .cells = {cell(p.measured.rms),
+                   cell(p.measured.max),
+                   cell(p.simulated.rms),
+                   cell(p.simulated.max),
+                   {fmt::format("{:+.1f} %", 100.0 * (p.simulated.rms / p.measured.rms - 1.0))}},
+         .note = {}});
+  }
+  return to_text(table, kPredictions);
+}
+
+/// Where a value comes from, for the machine file.
+std::string comment(const FittedParameter& p) {
+  switch (p.verdict) {
+    case Verdict::kIdentified:
+      return fmt::format("identified, 1 sigma {} ({})", with_digits_of(p.sigma, p.sigma),
+                         relative_text(p));
+    case Verdict::kMeasured:
+      return "read off the trace";
+    case Verdict::kUnidentified:
+    case Verdict::kAtBound:
+      return "not identified, starting value: " + p.why;
+    case Verdict::kFixed:
+      return "fixed";
+  }
+  return {};
+}
+
+Json axis_json(const AxisFit& fit) {
+  Json parameters = Json::array();
+  for (const FittedParameter& p : fit.parameters) {
+    Json entry{{"key", p.key},
+               {"name", p.name},
+               {"start", rounded(p.start)},
+               {"value", rounded(p.value)},
+               {"sigma", rounded(p.sigma)},
+               {"relative_sigma", rounded(p.relative)},
+               {"identified", is_found(p)},
+               {"verdict", verdict_name(p.verdict)}};
+    if (!p.why.empty()) {
+      entry["why"] = p.why;
+    }
+    parameters.push_back(std::move(entry));
+  }
+  return {{"residual_rms_um", rounded(units::um_from_mm(fit.residual_rms))},
+          {"rounding_rms_um", rounded(units::um_from_mm(fit.rounding_rms))},
+          {"search_evaluations", fit.evaluations},
+          {"parameters", std::move(parameters)}};
+}
+
+Json error_json(const results::ErrorStats& error) {
+  return {{"rms", rounded(units::um_from_mm(error.rms))},
+          {"max", rounded(units::um_from_mm(error.max))}};
+}
+
+}  // namespace
+
+std::string_view verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kIdentified:
+      return "identified";
+    case Verdict::kMeasured:
+      return "measured";
+    case Verdict::kUnidentified:
+    case Verdict::kAtBound:
+      return "not identified";
+    case Verdict::kFixed:
+      return "fixed";
+  }
+  return "";
+}
+
+std::string to_table(const Identification& result) {
+  std::string text;
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    if (result.axis[axis]) {
+      text += axis_table(*result.axis[axis], axis);
+    } else {
+      text += fmt::format("\n{} axis: did not move or was not recorded; not identified\n",
+                          axis == hal::kX ? "X" : "Y");
+    }
+  }
+  return text + "\n" + prediction_table(result.predictions);
+}
+
+std::string to_json(const Identification& result, const std::filesystem::path& machine_file) {
+  Json json;
+  json["machine_file"] = machine_file.string();
+  json["period_s"] = rounded(result.machine.period);
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    json["axis"][axis == hal::kX ? "x" : "y"] =
+        result.axis[axis] ? axis_json(*result.axis[axis]) : Json(nullptr);
+  }
+  json["predictions"] = Json::array();
+  for (const Prediction& p : result.predictions) {
+    json["predictions"].push_back({{"trace", p.trace},
+                                   {"axis", p.axis == hal::kX ? "x" : "y"},
+                                   {"measured_tracking_error_um", error_json(p.measured)},
+                                   {"simulated_tracking_error_um", error_json(p.simulated)}});
+  }
+  json["notes"] = result.notes;
+  return to_text(json);
+}
+
+std::string to_machine_file(const Identification& result) {
+  std::map<std::string, std::string> comments;
+  for (const auto& fit : result.axis) {
+    if (fit) {
+      for (const FittedParameter& parameter : fit->parameters) {
+        comments[parameter.key] = comment(parameter);
+      }
+    }
+  }
+  std::string text =
+      "# Machine file written by twin identify; its comments say what was found.\n\n";
+  return text + config::to_toml(result.machine, [&comments](const std::string& path) {
+           const auto found = comments.find(path);
+           return found == comments.end() ? std::string() : found->second;
+         });
+}
+
+}  // namespace twin::studies::identify

@@ -1,0 +1,69 @@
+#include "studies/identify/identification_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace twin::studies::identify {
+namespace identification_report_test {
+
+using ::testing::HasSubstr;
+
+Identification example() {
+  Identification result;
+  AxisFit fit;
+  fit.parameters = {{.key = "table.x.moving_mass_kg",
+                     .name = "moving mass",
+                     .start = 12.0,
+                     .value = 12.0,
+                     .sigma = std::numeric_limits<double>::infinity(),
+                     .relative = 1.0,
+                     .verdict = Verdict::kUnidentified,
+                     .why = "shows only together with Coulomb friction, bristle stiffness, bristle "
+                            "damping and 1 more"},
+                    {.key = "table.x.bristle_damping_N_s_per_m",
+                     .name = "velocity loop integral time",
+                     .start = 1.0,
+                     .value = 499.999256,
+                     .sigma = 0.00091,
+                     .relative = 1e-6,
+                     .verdict = Verdict::kIdentified,
+                     .why = {}}};
+  fit.residual_rms = 0.00196;
+  result.axis[hal::kX] = fit;
+  result.predictions = {{.trace = "folder/trace.csv",
+                         .axis = hal::kX,
+                         .measured = {.max = 0.022357, .rms = 0.005},
+                         .simulated = {.max = 0.022357, .rms = 0.0049}}};
+  return result;
+}
+
+TEST(IdentificationReport, TableFitsATerminalAndSaysWhyAValueIsNotIdentified) {
+  const std::string table = to_table(example());
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 80U) << line;
+    EXPECT_FALSE(line.ends_with(' ')) << line;
+  }
+  EXPECT_THAT(table, HasSubstr("499.99926"));
+  EXPECT_THAT(table, HasSubstr("0.00091"));
+  EXPECT_THAT(table, HasSubstr("moving mass: shows only together with Coulomb friction"));
+  EXPECT_THAT(table, HasSubstr("-2.0 %"));
+  EXPECT_THAT(table, HasSubstr("Y axis: did not move"));
+}
+
+TEST(IdentificationReport, JsonHasNullForADeviationThatIsNotFinite) {
+  const auto json = nlohmann::json::parse(to_json(example(), "machine.toml"));
+  const auto& parameters = json["axis"]["x"]["parameters"];
+  EXPECT_TRUE(parameters[0]["sigma"].is_null());
+  EXPECT_EQ(parameters[0]["identified"], false);
+  EXPECT_EQ(parameters[1]["value"], 499.999256);
+  EXPECT_EQ(json["predictions"][0]["simulated_tracking_error_um"]["rms"], 4.9);
+  EXPECT_TRUE(json["axis"]["y"].is_null());
+}
+
+}  // namespace identification_report_test
+}  // namespace twin::studies::identify
