@@ -7,9 +7,8 @@
 namespace twin::hal::ideal {
 namespace {
 
-constexpr double kMmPerCount = 1e-6;  // 1 nm: finer than any error of interest [mm]
-constexpr double kMmPerSPerVolt =
-    100.0;  // only so that servos have something to divide by [mm/s/V]
+constexpr double kMmPerCount = 1e-6;      // 1 nm: finer than any error of interest [mm]
+constexpr double kMmPerSPerVolt = 100.0;  // so that servos can divide by something [mm/s/V]
 
 }  // namespace
 

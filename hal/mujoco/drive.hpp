@@ -13,11 +13,11 @@ struct DriveSignals {
 
 /// Servo drive in speed mode with its motor's current loop.
 ///
-///   V-REF -> (+ offset + hum) -> input filter -> x scale -> velocity PI -> torque limit -> current
-///   loop -> torque
+///   V-REF -> (+ offset + hum) -> input filter -> x scale -> velocity PI -> torque limit
+///         -> current loop -> torque
 ///
-/// The velocity loop is referred to the total inertia J, so that its gain is a bandwidth: with K =
-/// 2 pi f,
+/// The velocity loop is referred to the total inertia J, so that its gain f is a bandwidth. With
+/// K = 2 pi f,
 ///   tau* = J K (e + (1/Ti) int e dt),   e = w_ref - w                               [N.m]
 /// and on the bare inertia, without limit and lag, w / w_ref = K (s + 1/Ti) / (s^2 + K s + K / Ti).
 /// Anti-windup: the integral stands still while the torque is at its limit and the error would

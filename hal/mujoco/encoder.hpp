@@ -20,7 +20,9 @@ class Encoder {
   /// Makes a position zero counts. @param position [mm]
   void zero(double position) noexcept { origin_ = position; }
   /// Counts at a finite position [mm]. Real-time safe.
-  std::int64_t counts(double position) const noexcept;
+  std::int64_t counts(double position) const noexcept {
+    return static_cast<std::int64_t>(std::floor((position - origin_) / mm_per_count_ + phase_));
+  }
   /// Position that is zero counts [mm].
   double origin() const noexcept { return origin_; }
 

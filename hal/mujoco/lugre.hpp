@@ -14,9 +14,11 @@ namespace twin::hal::mujoco {
 /// F against the motion. In steady sliding z = sgn(v) g / s0 and F = sgn(v) g(v) + s2 v.
 ///
 /// alpha = 1 is LuGre [Canudas de Wit 1995], which creeps under a vibrating load below breakaway.
-/// As in the elasto-plastic model [Dupont 2002], alpha is 0 while |z| < z_ba = elastic_share Fc /
-/// s0 or while z and v differ in sign, 1 from z_ss = g / s0 on, and half a sine wave between: below
-/// z_ba the bristle is a spring and nothing is lost. elastic_share = 0 switches this off.
+/// As in the elasto-plastic model [Dupont 2002], with
+///   z_ba = elastic_share Fc / s0,   z_ss = g / s0,
+/// alpha is 0 while |z| < z_ba or while z and v differ in sign, 1 from z_ss on, and half a sine
+/// wave between: below z_ba the bristle is a spring and nothing is lost. elastic_share = 0 switches
+/// this off.
 ///
 /// Integration, exact for constant v and alpha over the step h:
 ///   lambda = alpha s0 |v| / g,  E = exp(-lambda h)

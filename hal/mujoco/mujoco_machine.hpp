@@ -17,9 +17,9 @@ class TablePlant;
 
 /// The servo XY table as a MuJoCo model, behind the wires of a real one.
 ///
-/// Converters, plant and encoders. One period of simulated time passes inside each read(): n =
-/// period / physics_step steps of the plant with the outputs of the last write(), which reach the
-/// drive output_delay later.
+/// It joins converters, plant and encoders. One period of simulated time passes inside each read():
+/// the plant makes n = period / physics_step steps with the outputs of the last write(), which
+/// reach the drive output_delay later.
 ///
 /// Without an active state the drives are off, but time still passes in read(): friction alone
 /// holds the table. Nothing depends on the wall clock or on other machines in the process: the same

@@ -18,7 +18,8 @@ Expected<SlideJoint> find_joint(const mjModel& model, const std::string& name, m
     return fail(ErrorCode::kModel, fmt::format("joint \"{}\" of the model is not a {} joint", name,
                                                type == mjJNT_SLIDE ? "slide" : "hinge"));
   }
-  return SlideJoint{model.jnt_bodyid[id], model.jnt_qposadr[id], model.jnt_dofadr[id]};
+  return SlideJoint{
+      .body = model.jnt_bodyid[id], .qpos = model.jnt_qposadr[id], .dof = model.jnt_dofadr[id]};
 }
 
 Expected<AxisJoints> find_axis(const mjModel& model, const std::string& name) {

@@ -41,8 +41,7 @@ struct LugreParams {
   double bristle_stiffness = 300.0;  ///< s0 [N/mm]
   double bristle_damping = 0.44;     ///< s1 [N s/mm]
   double viscous = 0.01;             ///< s2 [N s/mm]
-  double elastic_share =
-      0.9;  ///< share of the Coulomb deflection that is purely elastic, 0: plain LuGre [-]
+  double elastic_share = 0.9;  ///< purely elastic part of the Coulomb deflection, 0: LuGre [-]
 };
 
 /// Ball screw.
@@ -99,8 +98,8 @@ inline AxisParams default_y_axis() {
 
 /// The whole table.
 struct TableParams {
-  std::string model =
-      "mjcf/xy_table.xml";         ///< MJCF file; xy_table_compliant.xml for screws that give
+  /// MJCF file; xy_table_compliant.xml for screws that give.
+  std::string model = "mjcf/xy_table.xml";
   double physics_step = 1e-4;      ///< at most; a whole number of steps makes a period [s]
   double pen_bandwidth_Hz = 20.0;  ///< of the Z slide that follows its reference [Hz]
   std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};

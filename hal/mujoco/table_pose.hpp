@@ -7,11 +7,9 @@
 /// Names and places of the table's MJCF model, for whoever draws it. Conventions: mjcf/README.md.
 namespace twin::hal::mujoco {
 
-inline constexpr const char* kJointX =
-    "x";  ///< slide [m], positive: the pen goes to +x on the plate
-inline constexpr const char* kJointY =
-    "y";  ///< slide [m], positive: the pen goes to +y on the plate
-inline constexpr const char* kJointZ = "z";  ///< slide [m], positive: the pen lifts
+inline constexpr const char* kJointX = "x";  ///< slide [m]; positive: the pen goes to +x
+inline constexpr const char* kJointY = "y";  ///< slide [m]; positive: the pen goes to +y
+inline constexpr const char* kJointZ = "z";  ///< slide [m]; positive: the pen lifts
 inline constexpr const char* kPlateBody = "plate";
 inline constexpr const char* kPlateGeom = "plate_top";
 inline constexpr const char* kPenSite = "pen_tip";

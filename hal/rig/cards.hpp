@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "hal/machine.hpp"
+#include "hal/rig/rig_settings.hpp"
 
 namespace twin::hal::rig {
 
@@ -14,8 +16,8 @@ inline constexpr std::size_t kCounters = 4;  ///< quadrature counters of the PCI
 
 /// What the cards show at one instant.
 struct CardInputs {
-  std::array<std::int64_t, kCounters>
-      counts{};                 ///< unwrapped, since the cards were opened [counts]
+  /// Unwrapped, since the cards were opened [counts].
+  std::array<std::int64_t, kCounters> counts{};
   std::uint16_t digital = 0;    ///< DI 0 to 15 of the PCI-1716
   std::uint8_t index_seen = 0;  ///< bit i: counter i has met its index since the last read
 };
@@ -49,5 +51,8 @@ class Cards {
   /// Why a call returned kError; empty when none did. Not real-time safe.
   virtual std::string last_error() const = 0;
 };
+
+/// Finds and opens the cards with the driver that the settings name.
+Expected<std::unique_ptr<Cards>> open_cards(const RigSettings& settings);
 
 }  // namespace twin::hal::rig

@@ -25,9 +25,9 @@ void make_safe(io_port::IoPort& pci1716, std::uint16_t digital) noexcept;
 /// Advantech PCI-1716: two 16 bit D/A converters, 16 digital inputs and outputs, A/D converter.
 ///
 /// Register map (BAR 2) as in Linux-Comedi's adv_pci1710 and Advantech's own driver of 2006. The
-/// converters are used at +-10 V, offset binary: code = clamp(round(V / 10 V 2^15) + 2^15, 0, 2^16
-/// - 1). Registers are accessed 16 bits wide: a wider write at 0x0A or 0x0C would reach the next
-/// one.
+/// converters are used at +-10 V, in offset binary:
+///   code = clamp(round(V / 10 V 2^15) + 2^15, 0, 2^16 - 1).
+/// Registers are accessed 16 bits wide: a wider write at 0x0A or 0x0C would reach the next one.
 class Pci1716 {
  public:
   /// Range of an analogue input, by its code in the gain register; bipolar, single ended.

@@ -60,13 +60,13 @@ class RigMachine final : public Machine {
  private:
   enum class Fault {
     kNone,
-    kNotConfigured,
-    kNotActive,
-    kNotANumber,
-    kCards,
-    kBench,
-    kGuard,
-    kGuardGone
+    kNotConfigured,  // read() came before configure()
+    kNotActive,      // write() came before activate()
+    kNotANumber,     // in the outputs
+    kCards,          // a card no longer answers
+    kBench,          // the simulation failed
+    kGuard,          // the guard has made the outputs safe
+    kGuardGone,      // nothing watches the outputs any more
   };
 
   Expected<void> get_ready(CardInputs& inputs);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "hal/rig/io_port/access.hpp"
+#include "hal/rig/io_port/io_port.hpp"
 #include "hal/signals.hpp"
 
 /// Everything about cards, wires and signals of the real rig that can differ from rig to rig or is

@@ -44,8 +44,10 @@ std::uint16_t Servopack::with_outputs(bool servo_on, bool alarm_reset,
 
 DriveInputs Servopack::decode(std::uint16_t levels, bool servo_on) const noexcept {
   const bool says_ready = wiring_.ready.channel < 0 || is_given(wiring_.ready, levels);
-  return {servo_on && says_ready, is_given(wiring_.alarm, levels),
-          is_given(wiring_.limit_positive, levels), is_given(wiring_.limit_negative, levels)};
+  return {.ready = servo_on && says_ready,
+          .alarm = is_given(wiring_.alarm, levels),
+          .limit_positive = is_given(wiring_.limit_positive, levels),
+          .limit_negative = is_given(wiring_.limit_negative, levels)};
 }
 
 double Servopack::mm_per_count(double table) const noexcept {

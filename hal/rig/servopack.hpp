@@ -41,7 +41,7 @@ class Servopack {
   std::uint16_t with_outputs(bool servo_on, bool alarm_reset, std::uint16_t levels) const noexcept;
   /// What the digital inputs say.
   ///
-  /// Drives may say /S-RDY before /S-ON: that they would take it. So ready needs both here.
+  /// A drive may give /S-RDY before /S-ON, to say that it would take it. Ready needs both here.
   /// @param servo_on  as last asked; alone where /S-RDY is not wired
   DriveInputs decode(std::uint16_t levels, bool servo_on) const noexcept;
 

@@ -7,7 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
-#include "cli/rig_ports.hpp"
+#include "cli/rigs.hpp"
 #include "hal/rig/emulator/serve.hpp"
 #include "runtime/realtime_thread.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
-#include "cli/rig_look.hpp"
-#include "cli/rig_machines.hpp"
+#include "cli/rigs.hpp"
+#include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/io_port/find_card.hpp"
 #include "hal/rig/rig_view.hpp"
 
@@ -73,7 +73,7 @@ Expected<void> execute(const RigProbeArguments& arguments, const Environment&) {
   TWIN_TRY(const RigToLookAt rig_seen, open_to_look(arguments.rig, std::move(machine)));
   const rig::RigSettings& settings = rig_seen.settings;
   fmt::print("rig: {}\n", describe(rig_seen.kind));
-  if (rig_seen.kind == RigKind::kCards) {
+  if (rig_seen.kind == rig::assemble::RigKind::kCards) {
     print_cards(rig::io_port::kPci1716, settings);
     print_cards(rig::io_port::kPci1784, settings);
   }
@@ -98,8 +98,8 @@ Expected<void> execute(const RigProbeArguments& arguments, const Environment&) {
 Expected<void> execute(const RigMonitorArguments& arguments, const Environment& environment) {
   TWIN_TRY(auto machine, read_machine(arguments.machine, Verbosity::kNormal));
   TWIN_TRY(const RigToLookAt rig_seen, open_to_look(arguments.rig, std::move(machine)));
-  const RigPorts& ports = rig_seen.ports;
-  const hal::MachineInfo info = machine_info(rig_seen.machine);
+  const rig::assemble::RigPorts& ports = rig_seen.ports;
+  const hal::MachineInfo info = rig::assemble::rig_info(rig_seen.machine.rig, rig_seen.machine.table);
   fmt::print("rig: {}; Ctrl-C ends this\n", describe(rig_seen.kind));
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
   const auto start = Clock::now();

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "cli/rigs.hpp"
 #include "core/units.hpp"
 #include "runtime/pacer.hpp"
 #include "session/axis_move.hpp"

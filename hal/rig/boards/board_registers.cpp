@@ -45,11 +45,43 @@ void power_on(Pci1784Registers& card, int board_id) noexcept {
   card.is_present.store(true);
 }
 
+// A try fails only when a change begins during its few loads.
+constexpr int kMostReads = 10'000;
+
+void store(std::array<std::atomic<std::uint32_t>, 4>& copy, const CounterValues& values) noexcept {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // Who sees this value sees the sequence that was stored before it.
+    copy[i].store(values[i], std::memory_order_release);
+  }
+}
+
 }  // namespace
 
 void power_on(BoardRegisters& boards, int pci1716_board_id, int pci1784_board_id) noexcept {
   power_on(boards.pci1716, pci1716_board_id);
   power_on(boards.pci1784, pci1784_board_id);
+}
+
+CounterValues running_counters(const Pci1784Registers& card) noexcept {
+  CounterValues values{};
+  for (int i = 0; i < kMostReads; ++i) {
+    const std::uint32_t before = card.sequence.load(std::memory_order_acquire);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      values[c] = card.running[before & 1][c].load(std::memory_order_acquire);
+    }
+    if (card.sequence.load(std::memory_order_acquire) == before) {
+      return values;
+    }
+  }
+  return values;
+}
+
+void set_running_counters(Pci1784Registers& card, const CounterValues& values) noexcept {
+  const std::uint32_t even = card.sequence.load(std::memory_order_relaxed) & ~1U;
+  card.sequence.store(even + 1, std::memory_order_release);
+  store(card.running[0], values);
+  card.sequence.store(even + 2, std::memory_order_release);
+  store(card.running[1], values);
 }
 
 }  // namespace twin::hal::rig::boards

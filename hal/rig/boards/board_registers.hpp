@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What is inside the emulated boards: plain atomics, so that they can lie in memory that two
-/// processes share, and so that a process that is killed in the middle of an access blocks nobody.
+/// What is inside the emulated boards. The registers are plain atomics, so that they can lie in
+/// memory that two processes share, and so that a process that is killed in the middle of an access
+/// blocks nobody.
 namespace twin::hal::rig::boards {
 
 inline constexpr std::uint32_t kAdFifoSize = 1024;  ///< samples the A/D FIFO holds
@@ -63,5 +64,26 @@ struct BoardRegisters {
 /// Switches the cards on: all registers 0, both converters at the code of 0 V, cards present, A/D
 /// inputs at 0 V. Not for cards in use.
 void power_on(BoardRegisters& boards, int pci1716_board_id, int pci1784_board_id) noexcept;
+
+/// What has run at the inputs of the four counters [counts modulo 2^32].
+using CounterValues = std::array<std::uint32_t, 4>;
+
+/// Returns all four as they were at one instant. It ends also if the wires' side was killed in the
+/// middle of a change, and after a bounded number of tries in any case. Real-time safe.
+CounterValues running_counters(const Pci1784Registers& card) noexcept;
+
+/// Changes all four at one instant; for the wires' side, which is one thread. Real-time safe.
+void set_running_counters(Pci1784Registers& card, const CounterValues& values) noexcept;
+
+/// What a register that has nothing to show reads as. The value is neither 0 nor all ones; it
+/// differs from offset to offset and is always the same there. Real-time safe.
+constexpr std::uint16_t junk(std::uint32_t offset) noexcept {
+  return static_cast<std::uint16_t>(0x5AC3U ^ (offset * 0x0107U));
+}
+
+/// The same, 32 bits. Real-time safe.
+constexpr std::uint32_t junk32(std::uint32_t offset) noexcept {
+  return 0x6E000000U ^ (offset * 0x00010000U) ^ junk(offset);
+}
 
 }  // namespace twin::hal::rig::boards

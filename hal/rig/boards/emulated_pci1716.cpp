@@ -1,6 +1,5 @@
 #include "hal/rig/boards/emulated_pci1716.hpp"
 
-#include "hal/rig/boards/junk.hpp"
 #include "hal/rig/boards/voltage_range.hpp"
 
 namespace twin::hal::rig::boards {
@@ -82,11 +81,7 @@ void EmulatedPci1716::trigger() noexcept {
 void EmulatedPci1716::clear_fifo() noexcept { card_.ad_tail.store(card_.ad_head.load()); }
 
 std::uint16_t EmulatedPci1716::read16(std::uint32_t offset) noexcept {
-  if (!card_.is_present.load(std::memory_order_acquire)) {
-    return kAllOnes16;
-  }
-  if (offset % 2 != 0 || offset >= kPci1716Bytes) {
-    ++rejected_;
+  if (!takes(offset, 2, kPci1716Bytes)) {
     return kAllOnes16;
   }
   switch (offset) {
@@ -104,11 +99,7 @@ std::uint16_t EmulatedPci1716::read16(std::uint32_t offset) noexcept {
 }
 
 void EmulatedPci1716::write16(std::uint32_t offset, std::uint16_t value) noexcept {
-  if (!card_.is_present.load(std::memory_order_acquire)) {
-    return;
-  }
-  if (offset % 2 != 0 || offset >= kPci1716Bytes) {
-    ++rejected_;
+  if (!takes(offset, 2, kPci1716Bytes)) {
     return;
   }
   switch (offset) {
@@ -136,28 +127,11 @@ void EmulatedPci1716::write16(std::uint32_t offset, std::uint16_t value) noexcep
 }
 
 void EmulatedPci1716::write8(std::uint32_t offset, std::uint8_t) noexcept {
-  if (!card_.is_present.load(std::memory_order_acquire)) {
-    return;
-  }
-  if (offset == kClearFifo) {
+  if (offset == kClearFifo && is_present()) {
     clear_fifo();
-  } else if (offset != kClearInterrupt) {
-    ++rejected_;
+  } else if (offset != kClearFifo && offset != kClearInterrupt) {
+    refuse();
   }
-}
-
-std::uint8_t EmulatedPci1716::read8(std::uint32_t) noexcept {
-  rejected_ += card_.is_present.load() ? 1 : 0;
-  return 0xFF;
-}
-
-std::uint32_t EmulatedPci1716::read32(std::uint32_t) noexcept {
-  rejected_ += card_.is_present.load() ? 1 : 0;
-  return 0xFFFFFFFF;
-}
-
-void EmulatedPci1716::write32(std::uint32_t, std::uint32_t) noexcept {
-  rejected_ += card_.is_present.load() ? 1 : 0;
 }
 
 }  // namespace twin::hal::rig::boards

@@ -5,35 +5,26 @@
 #include <utility>
 
 #include "hal/rig/boards/board_registers.hpp"
-#include "hal/rig/io_port/io_port.hpp"
+#include "hal/rig/boards/emulated_board.hpp"
 
 namespace twin::hal::rig::boards {
 
 /// BAR2 of a PCI-1716, 32 bytes, over emulated registers.
 ///
 /// A register that can only be written reads as junk, as do the bits that a register does not have.
-/// Registers are words; bytes are the clears at 0x08 and 0x09 and nothing else. An access of
-/// another width, at an odd place or outside reads as all ones, writes nothing and is counted. The
+/// Registers are words; bytes are the clears at 0x08 and 0x09 and nothing else. The
 /// A/D converts at once on the software trigger, one channel of the scan per trigger. The 8254 is
 /// not emulated.
-class EmulatedPci1716 final : public io_port::IoPort {
+class EmulatedPci1716 final : public EmulatedBoard {
  public:
   /// @param owner  of the registers, kept as long as this; null: they live longer by themselves
   explicit EmulatedPci1716(Pci1716Registers& registers,
                            std::shared_ptr<const void> owner = nullptr) noexcept
-      : owner_(std::move(owner)), card_(registers) {}
+      : EmulatedBoard(registers.is_present, std::move(owner)), card_(registers) {}
 
-  std::uint8_t read8(std::uint32_t offset) noexcept override;
   std::uint16_t read16(std::uint32_t offset) noexcept override;
-  std::uint32_t read32(std::uint32_t offset) noexcept override;
   void write8(std::uint32_t offset, std::uint8_t value) noexcept override;
   void write16(std::uint32_t offset, std::uint16_t value) noexcept override;
-  void write32(std::uint32_t offset, std::uint32_t value) noexcept override;
-  /// Emulated registers can always be reached.
-  int error() const noexcept override { return 0; }
-
-  /// Accesses that no register takes.
-  int rejected() const noexcept { return rejected_; }
 
  private:
   std::uint16_t status() const noexcept;
@@ -43,9 +34,7 @@ class EmulatedPci1716 final : public io_port::IoPort {
   void trigger() noexcept;
   void clear_fifo() noexcept;
 
-  std::shared_ptr<const void> owner_;
   Pci1716Registers& card_;
-  int rejected_ = 0;
 };
 
 }  // namespace twin::hal::rig::boards

@@ -1,8 +1,5 @@
 #include "hal/rig/boards/emulated_pci1784.hpp"
 
-#include "hal/rig/boards/junk.hpp"
-#include "hal/rig/boards/running_counters.hpp"
-
 namespace twin::hal::rig::boards {
 namespace {
 
@@ -20,14 +17,6 @@ constexpr std::uint32_t kMaster = 0x80000000;    // of the interrupt registers
 constexpr std::uint32_t kAllOnes32 = 0xFFFFFFFF;
 
 }  // namespace
-
-bool EmulatedPci1784::rejects(std::uint32_t offset) noexcept {
-  if (offset % 4 == 0 && offset < kPci1784Bytes) {
-    return false;
-  }
-  ++rejected_;
-  return true;
-}
 
 std::uint32_t EmulatedPci1784::status() const noexcept {
   const std::uint32_t events = card_.interrupt_status.load();
@@ -56,7 +45,7 @@ void EmulatedPci1784::reset(std::uint32_t value) noexcept {
 }
 
 std::uint32_t EmulatedPci1784::read32(std::uint32_t offset) noexcept {
-  if (!card_.is_present.load(std::memory_order_acquire) || rejects(offset)) {
+  if (!takes(offset, 4, kPci1784Bytes)) {
     return kAllOnes32;
   }
   if (offset < kCountersEnd) {
@@ -78,7 +67,7 @@ std::uint32_t EmulatedPci1784::read32(std::uint32_t offset) noexcept {
 }
 
 void EmulatedPci1784::write32(std::uint32_t offset, std::uint32_t value) noexcept {
-  if (!card_.is_present.load(std::memory_order_acquire) || rejects(offset)) {
+  if (!takes(offset, 4, kPci1784Bytes)) {
     return;
   }
   if (offset == layout_.reset) {
@@ -105,28 +94,11 @@ void EmulatedPci1784::write32(std::uint32_t offset, std::uint32_t value) noexcep
 }
 
 void EmulatedPci1784::write16(std::uint32_t offset, std::uint16_t value) noexcept {
-  if (!card_.is_present.load(std::memory_order_acquire)) {
-    return;
-  }
-  if (offset == kDigitalMode) {
+  if (offset != kDigitalMode) {
+    refuse();
+  } else if (is_present()) {
     card_.digital_mode.store(value);
-  } else {
-    ++rejected_;
   }
-}
-
-std::uint8_t EmulatedPci1784::read8(std::uint32_t) noexcept {
-  rejected_ += card_.is_present.load() ? 1 : 0;
-  return 0xFF;
-}
-
-std::uint16_t EmulatedPci1784::read16(std::uint32_t) noexcept {
-  rejected_ += card_.is_present.load() ? 1 : 0;
-  return 0xFFFF;
-}
-
-void EmulatedPci1784::write8(std::uint32_t, std::uint8_t) noexcept {
-  rejected_ += card_.is_present.load() ? 1 : 0;
 }
 
 }  // namespace twin::hal::rig::boards

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hal/rig/boards/board_registers.hpp"
-#include "hal/rig/io_port/io_port.hpp"
+#include "hal/rig/boards/emulated_board.hpp"
 
 namespace twin::hal::rig::boards {
 
@@ -20,37 +20,25 @@ struct Pci1784Layout {
 /// The offsets 0x00 to 0x0C are the modes when written and the latched counters when read. Writing
 /// 0x28 latches, at one instant, the counters whose bits are set and whose mode has bit 8. Reading
 /// 0x24 clears the interrupt status. Events are kept in the status whether enabled or not; bit 31
-/// is set while one is that is enabled. Registers are dwords, but for the word at 0x32; other
-/// accesses read as all ones, write nothing and are counted.
-class EmulatedPci1784 final : public io_port::IoPort {
+/// is set while an enabled one is among them. Registers are dwords, but for the word at 0x32.
+class EmulatedPci1784 final : public EmulatedBoard {
  public:
   /// @param owner  of the registers, kept as long as this; null: they live longer by themselves
   explicit EmulatedPci1784(Pci1784Registers& registers, Pci1784Layout layout = {},
                            std::shared_ptr<const void> owner = nullptr) noexcept
-      : owner_(std::move(owner)), card_(registers), layout_(layout) {}
+      : EmulatedBoard(registers.is_present, std::move(owner)), card_(registers), layout_(layout) {}
 
-  std::uint8_t read8(std::uint32_t offset) noexcept override;
-  std::uint16_t read16(std::uint32_t offset) noexcept override;
   std::uint32_t read32(std::uint32_t offset) noexcept override;
-  void write8(std::uint32_t offset, std::uint8_t value) noexcept override;
   void write16(std::uint32_t offset, std::uint16_t value) noexcept override;
   void write32(std::uint32_t offset, std::uint32_t value) noexcept override;
-  /// Emulated registers can always be reached.
-  int error() const noexcept override { return 0; }
-
-  /// Accesses that no register takes.
-  int rejected() const noexcept { return rejected_; }
 
  private:
-  bool rejects(std::uint32_t offset) noexcept;
   std::uint32_t status() const noexcept;
   void latch(std::uint32_t counters) noexcept;
   void reset(std::uint32_t value) noexcept;
 
-  std::shared_ptr<const void> owner_;
   Pci1784Registers& card_;
   Pci1784Layout layout_;
-  int rejected_ = 0;
 };
 
 }  // namespace twin::hal::rig::boards

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "hal/rig/boards/board_registers.hpp"
-#include "hal/rig/boards/running_counters.hpp"
 
 namespace twin::hal::rig::boards {
 

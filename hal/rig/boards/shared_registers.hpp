@@ -42,8 +42,9 @@ enum class SharedRole : std::uint8_t {
 
 /// Registers of emulated boards in POSIX shared memory, mode 0600.
 ///
-/// The emulator holds a lock on the memory as long as it lives, which the kernel opens whatever
-/// ends it; so memory that a dead emulator left is told from that of a living one, and taken over.
+/// The emulator holds a lock on the memory as long as it lives, and the kernel opens that lock
+/// however the emulator ends. The lock tells memory that a dead emulator left, which the next one
+/// takes over, from that of a living one.
 /// The memory stays mapped in a process that forks; a child may use it, and removes nothing.
 class SharedRegisters {
  public:

@@ -1,8 +1,12 @@
 #include "hal/rig/emulator/emulated_rig.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
+#include "core/monotonic.hpp"
 #include "hal/rig/boards/voltage_range.hpp"
 
 namespace twin::hal::rig::emulator {
@@ -182,6 +186,115 @@ void EmulatedRig::set_pen_reference(double z) noexcept {
 
 std::string EmulatedRig::last_error() const {
   return plant_ ? plant_->last_error() : "the emulated rig was used before it was switched on";
+}
+
+void EmulatedRig::tell(EventKind kind, std::size_t index, std::int64_t value) noexcept {
+  events_.add({.kind = kind,
+               .index = index,
+               .value = value,
+               .plant_time = time(),
+               .monotonic_ns = monotonic_ns()});
+}
+
+void EmulatedRig::strike_due_faults() noexcept {
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    const Fault& fault = faults_[i];
+    std::optional<double> ready = state_[fault.axis].first_ready;
+    if (!has_axis(fault.kind)) {
+      ready = state_[kX].first_ready;
+      const std::optional<double> other = state_[kY].first_ready;
+      ready = ready && other ? std::min(*ready, *other) : ready ? ready : other;
+    }
+    // Half a period of tolerance: the sum of periods is not exact.
+    if (struck_[i] == 0 && ready && time() >= *ready + fault.time - 0.5 * period_) {
+      struck_[i] = 1;
+      inject(fault);
+    }
+  }
+}
+
+void EmulatedRig::inject(const Fault& fault) noexcept {
+  AxisState& state = state_[fault.axis];
+  tell(EventKind::kFault, fault.axis, static_cast<std::int64_t>(fault.kind));
+  state.broken.set(static_cast<std::size_t>(fault.kind));
+  switch (fault.kind) {
+    case FaultKind::kEncoderLostCounts:
+      state.edges_to_lose += kLostCounts;
+      break;
+    case FaultKind::kDacStuck:
+      state.stuck_volts = dac_volts(fault.axis);
+      break;
+    case FaultKind::kAlarm:
+      if (plant_) {
+        plant_->trip(fault.axis);
+      }
+      break;
+    case FaultKind::kLimitPositive:
+    case FaultKind::kLimitNegative:
+      if (plant_) {
+        plant_->force_limits(fault.axis, is_broken(fault.axis, FaultKind::kLimitPositive),
+                             is_broken(fault.axis, FaultKind::kLimitNegative));
+      }
+      break;
+    case FaultKind::kCardGone1716:
+      boards_->pci1716.is_present.store(false);
+      break;
+    case FaultKind::kCardGone1784:
+      boards_->pci1784.is_present.store(false);
+      break;
+    default:
+      break;
+  }
+}
+
+void EmulatedRig::notice_outputs(std::uint16_t digital_out) noexcept {
+  if (digital_out != digital_out_) {
+    digital_out_ = digital_out;
+    tell(EventKind::kDigitalOut, 0, digital_out);
+  }
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    Event event;
+    event.index = i;
+    if (rest_[i].take(boards_->pci1716.dac[i].load(), time(), event)) {
+      events_.add(event);
+    }
+  }
+}
+
+void EmulatedRig::notice(std::size_t axis) noexcept {
+  AxisState& state = state_[axis];
+  const auto changed = [](bool& last, bool now) { return std::exchange(last, now) != now; };
+  if (changed(state.is_ready, plant_->is_ready(axis))) {
+    tell(state.is_ready ? EventKind::kServoReady : EventKind::kServoOff, axis, 0);
+  }
+  if (changed(state.has_alarm, plant_->has_alarm(axis))) {
+    tell(state.has_alarm ? EventKind::kAlarm : EventKind::kAlarmCleared, axis, 0);
+  }
+  if (changed(state.is_limit_positive, plant_->is_limit_positive(axis))) {
+    tell(EventKind::kLimitPositive, axis, state.is_limit_positive ? 1 : 0);
+  }
+  if (changed(state.is_limit_negative, plant_->is_limit_negative(axis))) {
+    tell(EventKind::kLimitNegative, axis, state.is_limit_negative ? 1 : 0);
+  }
+  if (state.is_ready && !state.first_ready) {
+    state.first_ready = time();
+  }
+}
+
+std::string EmulatedRig::report() const {
+  std::string text;
+  for (std::size_t i = events_.first(); i < events_.written(); ++i) {
+    text += to_string(events_[i]) + '\n';
+  }
+  const boards::Pci1716Registers& card = boards_->pci1716;
+  const Truth end = truth();
+  const std::string outputs =
+      card.is_present.load()
+          ? fmt::format("DAC 0 0x{:04X}, DAC 1 0x{:04X}, digital outputs 0x{:04X}",
+                        card.dac[0].load(), card.dac[1].load(), card.digital_out.load())
+          : "the PCI-1716 without power";
+  return text + fmt::format("plant {:.6f} s: end, table x {:.3f} mm, y {:.3f} mm, {}\n", time(),
+                            end.table_position[kX], end.table_position[kY], outputs);
 }
 
 }  // namespace twin::hal::rig::emulator

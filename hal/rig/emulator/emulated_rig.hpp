@@ -21,9 +21,9 @@ namespace twin::hal::rig::emulator {
 
 /// Both cards, the drives and the table: emulated boards whose wires end in TablePlant.
 ///
-///   DAC code -> volts by range -> V-REF of the drives  \                 / edges -> counters
-///   DO bits -> /S-ON, /ALM-RST                          } -> TablePlant {  ALM, /S-RDY, P-OT, N-OT
-///   -> DI analogue inputs <- volts                           /                 \ true position
+///   DAC code -> volts by range -> V-REF  \                 / edges -> counters
+///   DO bits -> /S-ON, /ALM-RST            } -> TablePlant {  ALM, /S-RDY, P-OT, N-OT -> DI bits
+///   analogue inputs <- volts             /                 \ true position
 ///
 /// advance() lets one period pass with what stands at the boards, and shows the result there. The
 /// same voltages give the same bytes as MujocoMachine. Analogue input n sees DAC n, and an input
@@ -48,6 +48,8 @@ class EmulatedRig final : public Bench {
   boards::BoardRegisters& boards() noexcept { return *boards_; }
   /// What happened. For the thread that calls advance().
   EventLog& events() noexcept { return events_; }
+  /// What happened and how it ended, a line each. For the thread that calls advance().
+  std::string report() const;
   /// Breaks something now, whatever its time. Real-time safe.
   void inject(const Fault& fault) noexcept;
   /// Simulated time since power on [s].

@@ -40,8 +40,9 @@ bool has_axis(FaultKind kind) noexcept;
 struct Fault {
   FaultKind kind = FaultKind::kEncoderFrozen;
   std::size_t axis = 0;  ///< kX or kY, where the kind has an axis
-  double time = 0.0;  ///< since a servo, that of the axis if the kind has one, first became ready
-                      ///< [s]; a run moves 0.3 s after it has switched the servos on
+  /// Since a servo, that of the axis if the kind has one, first became ready [s]. A run moves 0.3 s
+  /// after it has switched the servos on.
+  double time = 0.0;
 };
 
 /// Reads "KIND:AXIS@SECONDS" or "KIND@SECONDS", as "alarm:x@1.5" or "card_gone_1784@2".

@@ -4,27 +4,22 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 
+#include "hal/rig/guard/guard_arguments.hpp"
 #include "hal/rig/guard/guard_loop.hpp"
 #include "hal/rig/guard/guarded_outputs.hpp"
 
-// twin-guard: started by the controller, never by hand. Exit status 0 when the controller has
-// ended.
+// twin-guard makes the rig's outputs safe when its controller is gone or silent. The controller
+// starts it, never a user. Its exit status is 0 when the controller has ended.
 namespace {
 
 using namespace twin::hal::rig::guard;
-
-struct Options {
-  int page = -1;
-  int lifeline = -1;
-  std::string outputs;
-  unsigned safe_digital = 0;
-  int timeout_ms = 20;
-};
 
 /// Nothing that a terminal or a session sends ends the guard.
 void ignore_signals() {
@@ -47,20 +42,20 @@ void report_failure(GuardPage& page, const std::string& message) {
   page.state = GuardState::kFailed;
 }
 
-int guard(const Options& options) {
+int guard_outputs(const GuardArguments& arguments) {
   void* const mapped =
-      mmap(nullptr, sizeof(GuardPage), PROT_READ | PROT_WRITE, MAP_SHARED, options.page, 0);
+      mmap(nullptr, sizeof(GuardPage), PROT_READ | PROT_WRITE, MAP_SHARED, arguments.page, 0);
   if (mapped == MAP_FAILED) {
     return 1;
   }
   auto& page = *static_cast<GuardPage*>(mapped);
-  auto make_safe = open_guarded_outputs(options.outputs, options.safe_digital);
+  auto make_safe = open_guarded_outputs(arguments.outputs, arguments.safe_digital);
   if (!make_safe) {
-    report_failure(page, to_string(make_safe.error()));
+    report_failure(page, twin::to_string(make_safe.error()));
     return 1;
   }
   take_priority();
-  run_guard(page, options.lifeline, std::chrono::milliseconds(options.timeout_ms), *make_safe);
+  run_guard(page, arguments.lifeline, std::chrono::milliseconds(arguments.timeout_ms), *make_safe);
   return 0;
 }
 
@@ -68,17 +63,14 @@ int guard(const Options& options) {
 
 int main(int argc, char** argv) try {
   ignore_signals();
-  CLI::App app("twin-guard: makes the rig's outputs safe when its controller is gone or silent",
-               "twin-guard");
-  Options options;
-  app.add_option("--page", options.page, "Shared memory")->required();
-  app.add_option("--lifeline", options.lifeline, "Read end of a pipe of the controller")
-      ->required();
-  app.add_option("--outputs", options.outputs, "Where the outputs are")->required();
-  app.add_option("--safe-digital", options.safe_digital, "Digital outputs with the servos off");
-  app.add_option("--timeout-ms", options.timeout_ms, "Longest silence");
-  CLI11_PARSE(app, argc, argv);
-  return guard(options);
+  const std::span<const char* const> texts(argv, static_cast<std::size_t>(argc));
+  const auto arguments = parse_guard_arguments(texts.subspan(1));
+  if (!arguments) {
+    std::fprintf(stderr, "twin-guard: %s; only twin starts it\n",
+                 twin::to_string(arguments.error()).c_str());
+    return twin::exit_status(arguments.error());
+  }
+  return guard_outputs(*arguments);
 } catch (const std::exception&) {
   return 1;
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
+#include "hal/rig/guard/guard_arguments.hpp"
 
 namespace twin::hal::rig::guard {
 namespace {
@@ -119,11 +120,14 @@ Expected<void> GuardProcess::spawn(const GuardTarget& target) {
   Spawn process;
   process.keep(memory.get());
   process.keep(read_end.get());
-  const int code =
-      process.start(pid_, {target.program.string(), "--page", fmt::format("{}", memory.get()),
-                           "--lifeline", fmt::format("{}", read_end.get()), "--outputs",
-                           target.outputs, "--safe-digital", fmt::format("{}", target.safe_digital),
-                           "--timeout-ms", fmt::format("{}", target.timeout.count())});
+  std::vector<std::string> command =
+      to_text(GuardArguments{.page = memory.get(),
+                             .lifeline = read_end.get(),
+                             .outputs = target.outputs,
+                             .safe_digital = target.safe_digital,
+                             .timeout_ms = static_cast<int>(target.timeout.count())});
+  command.insert(command.begin(), target.program.string());
+  const int code = process.start(pid_, command);
   if (code != 0) {
     pid_ = -1;
     return failed(target.program.c_str(), code);

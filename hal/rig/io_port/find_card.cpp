@@ -41,7 +41,7 @@ Expected<CardSeen> look_at(const CardKind& kind, const PciDevice& device, Access
   TWIN_CHECK(enable(device));
   TWIN_TRY(const auto port, open_port(address));
   return board_id_of(kind, *port).map([&](int board_id) {
-    return CardSeen{device, address, board_id, {}};
+    return CardSeen{.pci = device, .port = address, .board_id = board_id, .why = {}};
   });
 }
 

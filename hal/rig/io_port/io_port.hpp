@@ -4,6 +4,12 @@
 
 namespace twin::hal::rig::io_port {
 
+/// How registers are reached.
+enum class Access : std::uint8_t {
+  kSysfs,   ///< resource file of the card, pread and pwrite
+  kIoperm,  ///< port instructions after ioperm()
+};
+
 /// The registers of one card: 8, 16 and 32 bit accesses at byte offsets of its BAR.
 ///
 /// The seam below the card drivers: a sysfs resource file, port I/O, or an emulated board. An

@@ -63,8 +63,12 @@ std::vector<PciDevice> pci_devices(const std::string& sysfs, std::uint16_t vendo
   for (const fs::directory_entry& entry : fs::directory_iterator(pci_folder(sysfs), error)) {
     const fs::path& folder = entry.path();
     if (id_in(folder / "vendor") == vendor && id_in(folder / "device") == device) {
-      devices.push_back({folder.string(), folder.filename().string(), vendor, device,
-                         id_in(folder / "subsystem_device").value_or(0), driver_of(folder)});
+      devices.push_back({.folder = folder.string(),
+                         .address = folder.filename().string(),
+                         .vendor = vendor,
+                         .device = device,
+                         .subsystem_device = id_in(folder / "subsystem_device").value_or(0),
+                         .driver = driver_of(folder)});
     }
   }
   std::sort(devices.begin(), devices.end(),

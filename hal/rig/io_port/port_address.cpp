@@ -22,7 +22,8 @@ std::string to_text(const PortAddress& address) {
 
 Expected<PortAddress> port_address_from_text(std::string_view text) {
   if (text.starts_with(kSysfsPrefix) && text.size() > kSysfsPrefix.size()) {
-    return PortAddress{Access::kSysfs, std::string(text.substr(kSysfsPrefix.size())), 0};
+    return PortAddress{.access = Access::kSysfs,
+                       .path = std::string(text.substr(kSysfsPrefix.size()))};
   }
   if (text.starts_with(kIopermPrefix)) {
     const std::string_view digits = text.substr(kIopermPrefix.size());
@@ -30,7 +31,7 @@ Expected<PortAddress> port_address_from_text(std::string_view text) {
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), base, 16);
     if (error == std::errc{} && end == digits.data() + digits.size() && base < 0x10000) {
-      return PortAddress{Access::kIoperm, {}, base};
+      return PortAddress{.access = Access::kIoperm, .path = {}, .base = base};
     }
   }
   return fail(ErrorCode::kUsage,

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "hal/rig/io_port/access.hpp"
 #include "hal/rig/io_port/io_port.hpp"
 
 namespace twin::hal::rig::io_port {

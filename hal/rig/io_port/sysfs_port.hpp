@@ -1,13 +1,27 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
 #include "core/error.hpp"
 #include "hal/rig/io_port/io_port.hpp"
-#include "hal/rig/io_port/port_error.hpp"
 
 namespace twin::hal::rig::io_port {
+
+/// The first errno of a port; a later one changes nothing. Lock-free, so that a signal handler may
+/// use the port.
+class PortError {
+ public:
+  void note(int number) noexcept {
+    int none = 0;
+    first_.compare_exchange_strong(none, number, std::memory_order_relaxed);
+  }
+  int first() const noexcept { return first_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<int> first_{0};
+};
 
 /// Registers through a card's `resourceN` file: the kernel turns a pread or pwrite of 1, 2 or 4
 /// bytes at a register's offset into one in or out instruction of that width

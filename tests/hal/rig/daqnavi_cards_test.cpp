@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "hal/rig/open_cards.hpp"
+#include "hal/rig/cards.hpp"
 #include "tests/hal/rig/stand_in/stand_in.hpp"
 #include "tests/support/allocations.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/boards/emulated_pci1784.hpp"
-#include "hal/rig/boards/running_counters.hpp"
 
 namespace twin::hal::rig::boards {
 namespace emulated_pci1784_test {

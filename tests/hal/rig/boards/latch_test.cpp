@@ -4,8 +4,8 @@
 #include <memory>
 #include <thread>
 
+#include "hal/rig/boards/board_registers.hpp"
 #include "hal/rig/boards/emulated_pci1784.hpp"
-#include "hal/rig/boards/running_counters.hpp"
 
 namespace twin::hal::rig::boards {
 namespace latch_test {

@@ -1,4 +1,4 @@
-#include "hal/rig/open_cards.hpp"
+#include "hal/rig/cards.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include "tests/support/sysfs_tree.hpp"
 
 namespace twin::hal::rig {
-namespace open_cards_test {
+namespace cards_test {
 
 using test::SysfsTree;
 using ::testing::HasSubstr;
@@ -76,5 +76,5 @@ TEST(OpenCards, CardsThatCannotBeReadToTheEndAreRefused) {
   EXPECT_THAT(cards.error().message, HasSubstr("does not answer"));
 }
 
-}  // namespace open_cards_test
+}  // namespace cards_test
 }  // namespace twin::hal::rig

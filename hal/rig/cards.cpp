@@ -1,4 +1,4 @@
-#include "hal/rig/open_cards.hpp"
+#include "hal/rig/cards.hpp"
 
 #include "hal/rig/daqnavi_cards.hpp"
 #include "hal/rig/register_cards.hpp"
