@@ -56,7 +56,9 @@ Expected<void> compare_contestants(const ResultArguments& results,
   {
     Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
     progress.show(0.0);
-    TWIN_CHECK(write_results(*comparison, workshop, results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
+    TWIN_CHECK(
+        write_results(*comparison, workshop,
+                      results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
   }
   if (results.verbosity == Verbosity::kNormal) {
     fmt::print("{}\n", to_text(grid_of_interpolators(*comparison)));

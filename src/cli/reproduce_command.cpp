@@ -49,7 +49,9 @@ Expected<void> execute(const ReproduceArguments& arguments, const Environment& e
   {
     Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
     progress.show(0.0);
-    TWIN_CHECK(write_results(*reproduction, workshop, results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
+    TWIN_CHECK(
+        write_results(*reproduction, workshop,
+                      results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
   }
   if (results.verbosity == Verbosity::kNormal) {
     print(*reproduction);

@@ -99,7 +99,8 @@ Expected<void> execute(const RigMonitorArguments& arguments, const Environment& 
   TWIN_TRY(auto machine, read_machine(arguments.machine, Verbosity::kNormal));
   TWIN_TRY(const RigToLookAt rig_seen, open_to_look(arguments.rig, std::move(machine)));
   const rig::assemble::RigPorts& ports = rig_seen.ports;
-  const hal::MachineInfo info = rig::assemble::rig_info(rig_seen.machine.rig, rig_seen.machine.table);
+  const hal::MachineInfo info =
+      rig::assemble::rig_info(rig_seen.machine.rig, rig_seen.machine.table);
   fmt::print("rig: {}; Ctrl-C ends this\n", describe(rig_seen.kind));
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
   const auto start = Clock::now();

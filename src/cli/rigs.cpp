@@ -112,8 +112,8 @@ Expected<RigToLookAt> open_to_look(const RigArguments& arguments, config::Machin
   RigToLookAt seen;
   TWIN_TRY(seen.kind, find_rig(arguments, machine));
   seen.settings = rig::assemble::wiring_to_look_with(seen.kind, machine.rig);
-  TWIN_TRY(seen.ports, rig::assemble::open_to_look(seen.kind, setup_of(arguments, machine),
-                                                   machine.period));
+  TWIN_TRY(seen.ports,
+           rig::assemble::open_to_look(seen.kind, setup_of(arguments, machine), machine.period));
   seen.machine = std::move(machine);
   return seen;
 }

@@ -106,7 +106,7 @@ Expected<SenseRun> run_sense(const CircleTest& test, Sense sense,
 }
 
 Measured figures_of(const BothPaths& paths, const CircleTest& test,
-                   const std::array<double, 2>& reached) {
+                    const std::array<double, 2>& reached) {
   Measured figures;
   figures.deviations = evaluate(paths, test.radius);
   for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -10,8 +10,8 @@
 #include "core/error.hpp"
 #include "session/machine.hpp"
 #include "studies/circular/circle_program.hpp"
-#include "studies/circular/measured_turn.hpp"
 #include "studies/circular/circular_report.hpp"
+#include "studies/circular/measured_turn.hpp"
 
 namespace twin::studies::circular {
 
