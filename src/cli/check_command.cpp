@@ -1,65 +1,47 @@
 #include <fmt/core.h>
 
 #include "cli/commands.hpp"
+#include "cli/machines.hpp"
 #include "config/find_file.hpp"
 #include "runtime/program_check.hpp"
 
 namespace twin::cli {
 namespace {
 
-Expected<void> check_one(const std::string& name, const config::MachineFile& machine,
-                         const Options& options, const std::atomic<bool>& stop) {
-  auto program = config::find_program(name);
-  if (!program) {
-    return tl::unexpected(program.error());
-  }
+Expected<void> check_program_of(const std::string& name, const CheckArguments& arguments,
+                                const config::MachineFile& machine, const std::atomic<bool>& stop) {
+  TWIN_TRY(const auto program, config::find_program(name));
   gcode::ReaderOptions reading;
-  reading.feedrate = feedrate_of(options);
+  reading.feedrate = arguments.feedrate;
   TWIN_TRY(const runtime::Estimate estimate,
-           runtime::estimate_program(*program, reading, machine, &stop));
-  if (!options.quiet) {
+           runtime::estimate_program(program, reading, machine, &stop));
+  if (arguments.verbosity == Verbosity::kNormal) {
     const runtime::ProgramFigures& figures = estimate.program;
     fmt::print(
         "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
         "cycle time {:.3f} s\n",
-        program->string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
+        program.string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
         figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
         estimate.plan.time);
   }
   return {};
 }
 
+}  // namespace
+
 /// Checks all the programs, so that one call shows what is wrong with each.
-Expected<void> check_command(const Options& options, const std::atomic<bool>& stop) {
-  auto machine = read_machine(options);
-  if (!machine) {
-    return tl::unexpected(machine.error());
-  }
+Expected<void> execute(const CheckArguments& arguments, const Environment& environment) {
+  TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
   Expected<void> result;
-  for (const std::string& name : options.programs) {
-    if (auto checked = check_one(name, *machine, options, stop); !checked) {
+  for (const std::string& name : arguments.programs) {
+    if (auto checked = check_program_of(name, arguments, machine, environment.stop); !checked) {
       if (!result) {
-        fmt::print(stderr, "twin: {}\n", to_string(result.error()));
+        print_error(result.error());
       }
       result = checked;
     }
   }
   return result;
-}
-
-}  // namespace
-
-Command add_check(const CommandContext& context) {
-  Options& options = context.options;
-  CLI::App* const app = context.app.add_subcommand(
-      "check", "Read and verify programs and estimate their cycle time; nothing moves");
-  app->add_option("programs", options.programs, "NC programs: files, or names in nc_programs")
-      ->required()
-      ->type_name("PROGRAM.nc ...");
-  add_feedrate_option(*app, options);
-  add_machine_options(*app, options);
-  app->add_flag("--quiet", options.quiet, "Print errors only");
-  return {app, [&options, &stop = context.stop] { return check_command(options, stop); }};
 }
 
 }  // namespace twin::cli

@@ -1,45 +1,38 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
-#include <functional>
+#include <string>
 
-#include "cli/options.hpp"
+#include "cli/arguments.hpp"
 #include "core/error.hpp"
 
-/// The subcommands, one file each.
+/// The commands, each of which returns what keeps the exit status from being 0.
 namespace twin::cli {
 
-/// A subcommand: its options, and what it does once they are parsed.
-struct Command {
-  CLI::App* app = nullptr;
-  std::function<Expected<void>()> execute;  ///< returns what keeps the exit status from being 0
-};
-
-/// What all subcommands are made with. `options` and `stop` outlive them.
-struct CommandContext {
-  CLI::App& app;
-  Options& options;
+/// What all commands are executed with.
+struct Environment {
   const std::atomic<bool>& stop;  ///< set when the user wants to end
+  std::string command_line;       ///< quoted as a shell takes it
 };
 
-Command add_run(const CommandContext& context);
-Command add_plan(const CommandContext& context);
-Command add_check(const CommandContext& context);
-Command add_render(const CommandContext& context);
-Command add_compare(const CommandContext& context);
-Command add_reproduce(const CommandContext& context);
-Command add_circle(const CommandContext& context);
-Command add_identify(const CommandContext& context);
-Command add_convert(const CommandContext& context);
-Command add_rig(const CommandContext& context);
+Expected<void> execute(const TextArguments& arguments, const Environment& environment);
+Expected<void> execute(const RunArguments& arguments, const Environment& environment);
+Expected<void> execute(const PlanArguments& arguments, const Environment& environment);
+Expected<void> execute(const CheckArguments& arguments, const Environment& environment);
+Expected<void> execute(const RenderArguments& arguments, const Environment& environment);
+Expected<void> execute(const CompareArguments& arguments, const Environment& environment);
+Expected<void> execute(const ReproduceArguments& arguments, const Environment& environment);
+Expected<void> execute(const CircleArguments& arguments, const Environment& environment);
+Expected<void> execute(const IdentifyArguments& arguments, const Environment& environment);
+Expected<void> execute(const ConvertArguments& arguments, const Environment& environment);
+Expected<void> execute(const RigProbeArguments& arguments, const Environment& environment);
+Expected<void> execute(const RigMonitorArguments& arguments, const Environment& environment);
+Expected<void> execute(const RigCheckArguments& arguments, const Environment& environment);
+Expected<void> execute(const RigJogArguments& arguments, const Environment& environment);
+Expected<void> execute(const RigHomeArguments& arguments, const Environment& environment);
+Expected<void> execute(const RigEmulateArguments& arguments, const Environment& environment);
 
-// Below `twin rig`.
-Command add_rig_probe(const CommandContext& context);
-Command add_rig_monitor(const CommandContext& context);
-Command add_rig_check(const CommandContext& context);
-Command add_rig_jog(const CommandContext& context);
-Command add_rig_home(const CommandContext& context);
-Command add_rig_emulate(const CommandContext& context);
+/// What is wrong with the name of a dialect of `twin convert --to`; empty for a sound one.
+std::string dialect_error(const std::string& name);
 
 }  // namespace twin::cli

@@ -1,9 +1,9 @@
 #include <fmt/core.h>
 
 #include "cli/commands.hpp"
-#include "cli/machines.hpp"
-#include "cli/progress.hpp"
 #include "config/find_file.hpp"
+#include "session/machine.hpp"
+#include "session/results.hpp"
 #include "studies/compare/comparison_files.hpp"
 #include "studies/compare/planner_table.hpp"
 
@@ -14,31 +14,24 @@ namespace {
 constexpr const char* kCurveProgram = "butterfly_nurbs.nc";
 
 /// Files of the programs named.
-Expected<std::vector<std::filesystem::path>> find_programs(const Options& options) {
+Expected<std::vector<std::filesystem::path>> find_programs(const std::vector<std::string>& names) {
   std::vector<std::filesystem::path> programs;
-  for (const std::string& name : options.programs) {
-    auto program = config::find_program(name);
-    if (!program) {
-      return tl::unexpected(std::move(program.error()));
-    }
-    programs.push_back(std::move(*program));
+  for (const std::string& name : names) {
+    TWIN_TRY(std::filesystem::path program, config::find_program(name));
+    programs.push_back(std::move(program));
   }
   return programs;
 }
 
-Expected<studies::compare::Request> request_of(const Options& options,
+Expected<studies::compare::Request> request_of(const CompareArguments& arguments,
                                                const std::filesystem::path& program) {
-  auto machine = config::find_machine(options.machine);
-  if (!machine) {
-    return tl::unexpected(std::move(machine.error()));
-  }
   studies::compare::Request request;
+  TWIN_TRY(request.machine_file, config::find_machine(arguments.machine.file));
   request.program = program;
-  request.machine_file = *machine;
-  request.settings = options.settings;
-  request.feedrate = feedrate_of(options);
-  request.running.make_machine = [hal = options.hal](const config::MachineFile& file) {
-    return make_machine(hal, file);
+  request.settings = arguments.machine.settings;
+  request.feedrate = arguments.feedrate;
+  request.running.make_machine = [hal = arguments.hal](const config::MachineFile& file) {
+    return *session::make_simulated_machine(hal, file);
   };
   if (auto curve = config::find_program(kCurveProgram);
       curve && curve->filename() != program.filename()) {
@@ -48,11 +41,12 @@ Expected<studies::compare::Request> request_of(const Options& options,
 }
 
 /// One program: the contestants, with runs.
-Expected<void> compare_contestants(const Options& options, studies::compare::Request request,
+Expected<void> compare_contestants(const ResultArguments& results,
+                                   studies::compare::Request request,
                                    const pictures::Workshop& workshop) {
   Expected<studies::compare::Comparison> comparison;
   {
-    Progress progress("comparing", options.quiet);
+    Progress progress("comparing", results.verbosity);
     request.running.progress = progress.callback();
     comparison = studies::compare::compare(request);
   }
@@ -60,13 +54,13 @@ Expected<void> compare_contestants(const Options& options, studies::compare::Req
     return tl::unexpected(comparison.error());
   }
   {
-    Progress progress("plots", options.quiet || options.no_plots);
+    Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
     progress.show(0.0);
     TWIN_CHECK(
         write_results(*comparison, workshop,
-                      options.no_plots ? pictures::Drawing::kLeftOut : pictures::Drawing::kDrawn));
+                      results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
   }
-  if (!options.quiet) {
+  if (results.verbosity == Verbosity::kNormal) {
     fmt::print("{}\n", to_text(grid_of_interpolators(*comparison)));
     if (!comparison->fluctuations.empty()) {
       fmt::print("{}\n", to_text(grid_of_fluctuations(*comparison)));
@@ -76,76 +70,43 @@ Expected<void> compare_contestants(const Options& options, studies::compare::Req
 }
 
 /// Several programs: a table of the planners, without runs.
-Expected<void> compare_planners(const Options& options, studies::compare::Request request,
+Expected<void> compare_planners(const ResultArguments& results, studies::compare::Request request,
                                 const std::vector<std::filesystem::path>& programs,
                                 const pictures::Workshop& workshop) {
   Expected<std::vector<studies::compare::PlannerRow>> rows;
   {
-    Progress progress("planning", options.quiet);
+    Progress progress("planning", results.verbosity);
     request.running.progress = progress.callback();
     rows = studies::compare::planner_rows(request, programs);
   }
   if (!rows) {
     return tl::unexpected(rows.error());
   }
-  if (auto written = write_planner_table(*rows, workshop); !written) {
-    return written;
-  }
-  if (!options.quiet) {
+  TWIN_CHECK(write_planner_table(*rows, workshop));
+  if (results.verbosity == Verbosity::kNormal) {
     fmt::print("{}\n", to_text(grid_of_planners(*rows)));
-  }
-  return {};
-}
-
-Expected<void> compare_command(const Options& options, const std::atomic<bool>& stop) {
-  const auto programs = find_programs(options);
-  if (!programs) {
-    return tl::unexpected(programs.error());
-  }
-  auto request = request_of(options, programs->front());
-  if (!request) {
-    return tl::unexpected(request.error());
-  }
-  const bool is_one = programs->size() == 1;
-  const std::filesystem::path name =
-      is_one ? request->program.stem().string() + "_compare" : "compare";
-  const std::filesystem::path out =
-      options.out.empty() ? std::filesystem::path("renders") / name : options.out;
-  const auto workshop = pictures::Workshop::open(out);
-  if (!workshop) {
-    return tl::unexpected(workshop.error());
-  }
-  request->folder = workshop->folder();
-  request->running.stop = &stop;
-  const auto compared = is_one ? compare_contestants(options, *request, *workshop)
-                               : compare_planners(options, *request, *programs, *workshop);
-  if (!compared) {
-    return compared;
-  }
-  if (!options.quiet) {
-    fmt::print("results in {}\n", out.string());
   }
   return {};
 }
 
 }  // namespace
 
-Command add_compare(const CommandContext& context) {
-  Options& options = context.options;
-  CLI::App* const app = context.app.add_subcommand(
-      "compare",
-      "Planners and interpolators side by side on one program, the parameter updates too; "
-      "a table of the planners for several programs");
-  app->add_option("program", options.programs,
-                  "NC programs: files, or names of some in nc_programs; more than one are planned "
-                  "only, a line each program and planner")
-      ->required()
-      ->type_name("PROGRAM.nc");
-  add_feedrate_option(*app, options);
-  add_machine_options(*app, options);
-  add_hal_option(*app, options);
-  add_result_options(*app, options, "PROGRAM_compare");
-  return {app, [&options, &stop = context.stop] { return compare_command(options, stop); }};
+Expected<void> execute(const CompareArguments& arguments, const Environment& environment) {
+  TWIN_TRY(const auto programs, find_programs(arguments.programs));
+  TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
+  const bool is_one = programs.size() == 1;
+  const std::filesystem::path out = session::result_folder(
+      arguments.results.folder,
+      is_one ? request.program.stem().string() + "_compare" : std::string("compare"));
+  TWIN_TRY(const auto workshop, pictures::Workshop::open(out));
+  request.folder = workshop.folder();
+  request.running.stop = &environment.stop;
+  TWIN_CHECK(is_one ? compare_contestants(arguments.results, request, workshop)
+                    : compare_planners(arguments.results, request, programs, workshop));
+  if (arguments.results.verbosity == Verbosity::kNormal) {
+    fmt::print("results in {}\n", out.string());
+  }
+  return {};
 }
 
 }  // namespace twin::cli

@@ -1,24 +1,24 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "cli/options.hpp"
+#include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/machine.hpp"
+#include "hal/signals.hpp"
+#include "session/machine.hpp"
 
+/// From the options of a command to machine file and machine.
 namespace twin::cli {
 
-/// A simulated machine by its name, "mujoco" or "ideal", with the parameters of a machine file.
-std::unique_ptr<hal::Machine> make_machine(const std::string& hal,
-                                           const config::MachineFile& machine);
+/// The machine file with the settings of the command line. What the reader notes of it is printed
+/// on stderr unless the command is quiet.
+Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Verbosity verbosity);
 
-/// The HAL switch: the machine of --hal and --rig. A real one is confirmed by the user first.
-///
-/// @param what  what it is about to do, as in "run dolphin.nc"
-Expected<std::unique_ptr<hal::Machine>> open_machine(const Options& options,
-                                                     const config::MachineFile& machine,
-                                                     const std::string& what);
+/// What makes the machine of --hal. A real one is confirmed by the user first.
+session::MakeMachine machine_of(const HalArguments& arguments);
+
+/// "x" or "y" as an axis.
+hal::Axis axis_of(const std::string& name);
 
 }  // namespace twin::cli

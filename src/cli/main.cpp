@@ -1,15 +1,15 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <exception>
 #include <span>
+#include <string>
+#include <variant>
 
+#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
-#include "cli/usage.hpp"
+#include "cli/terminal.hpp"
 #include "core/shell_quoted.hpp"
 #include "operator/terminal.hpp"
 
@@ -35,47 +35,26 @@ void watch_signals() {
   }
 }
 
-int report(const twin::Expected<void>& result) {
-  if (result) {
-    return 0;
-  }
-  fmt::print(stderr, "twin: {}\n", twin::to_string(result.error()));
-  return twin::exit_status(result.error());
+twin::Expected<void> run(std::span<const char* const> words, const std::string& command_line) {
+  TWIN_TRY(const twin::cli::Arguments arguments, twin::cli::parse_arguments(words));
+  watch_signals();
+  const twin::cli::Environment environment{stop_requested, command_line};
+  return std::visit(
+      [&](const auto& of_command) { return twin::cli::execute(of_command, environment); },
+      arguments);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-  using namespace twin::cli;
-  CLI::App app(
-      "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
-      "Start with: twin run dolphin.nc",
-      "twin");
-  app.set_version_flag("--version", "twin " TWIN_VERSION);
-  app.require_subcommand(1);
-  Options options;
-  options.command =
-      twin::shell_quoted(std::span<const char* const>(argv, static_cast<std::size_t>(argc)));
-  const CommandContext context{app, options, stop_requested};
-  const std::array commands{add_run(context),    add_plan(context),     add_check(context),
-                            add_render(context), add_compare(context),  add_reproduce(context),
-                            add_circle(context), add_identify(context), add_convert(context),
-                            add_rig(context)};
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      return app.exit(error);  // --help, --version
-    }
-    const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
-    fmt::print(stderr, "twin: {}\n", usage_error(app, error, arguments.subspan(1)));
-    return 2;
+  const std::span<const char* const> all(argv, static_cast<std::size_t>(argc));
+  const auto result = run(all.subspan(all.empty() ? 0 : 1), twin::shell_quoted(all));
+  if (!result) {
+    twin::cli::print_error(result.error());
+    return twin::exit_status(result.error());
   }
-  watch_signals();
-  const auto chosen =
-      std::ranges::find_if(commands, [](const Command& command) { return command.app->parsed(); });
-  return report(chosen->execute());
+  return 0;
 } catch (const std::exception& error) {
-  fmt::print(stderr, "twin: {}\n", error.what());
+  twin::cli::print_error(error.what());
   return 1;
 }

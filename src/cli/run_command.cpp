@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 
+#include <memory>
+#include <utility>
+
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
-#include "cli/progress.hpp"
 #include "operator/operator_station.hpp"
 #include "results/metrics/summary.hpp"
 #include "session/session.hpp"
@@ -10,24 +12,44 @@
 namespace twin::cli {
 namespace {
 
+/// What run and plan have in common.
+Expected<session::Request> request_of(const ProgramArguments& program,
+                                      const MachineArguments& machine, const std::string& overrides,
+                                      const ResultArguments& results) {
+  session::Request request;
+  TWIN_TRY(request.machine, read_machine(machine, results.verbosity));
+  request.program = program.name;
+  request.feedrate = program.feedrate;
+  request.folder = results.folder;
+  if (!overrides.empty()) {
+    TWIN_TRY(request.overrides, runtime::parse_override_schedule(overrides));
+  }
+  return request;
+}
+
 /// Runs with a progress bar, and on the wall clock with what an operator needs.
-Expected<runtime::RunResult> run_with_operator(session::Session& session, const Options& options,
+///
+/// @param control  socket for an operator; empty: none
+Expected<runtime::RunResult> run_with_operator(session::Session& session, Verbosity verbosity,
+                                               const std::filesystem::path& control,
                                                const std::atomic<bool>& stop) {
   session::Attendance attendance;
   attendance.stop = &stop;
   runtime::OperatorPanel panel;
   std::unique_ptr<operator_station::OperatorStation> station;
   if (session.is_on_wall_clock()) {
-    TWIN_TRY(station, operator_station::OperatorStation::open(
-                          {.socket = options.control, .shows_status = !options.quiet}, panel));
+    TWIN_TRY(station,
+             operator_station::OperatorStation::open(
+                 {.socket = control, .shows_status = verbosity == Verbosity::kNormal}, panel));
     attendance.panel = &panel;
-  } else if (!options.control.empty()) {
+  } else if (!control.empty()) {
     return fail(ErrorCode::kUsage,
                 "--control is for runs on the wall clock: --realtime or --hal rig; in simulated "
                 "time there is --override");
   }
   const bool is_shown = station != nullptr && station->shows_status();
-  Progress progress(session.hal() != nullptr ? "machining" : "planning", options.quiet || is_shown);
+  Progress progress(session.hal() != nullptr ? "machining" : "planning",
+                    is_shown ? Verbosity::kQuiet : verbosity);
   attendance.progress = progress.callback();
   attendance.estimated = [&progress](double time) {
     progress.rename(fmt::format("machining, {:.1f} s", time));
@@ -35,49 +57,28 @@ Expected<runtime::RunResult> run_with_operator(session::Session& session, const 
   return session.run(attendance);
 }
 
-/// Plots and video of what has been run.
-Expected<void> make_pictures(const session::Session& session, const Options& options) {
-  if (!options.no_plots) {
-    Progress progress("plots", options.quiet);
+/// Prints what a run has shown, and hands on why it ended early.
+Expected<void> report_run(const session::Session& session, const runtime::RunResult& result,
+                          Verbosity verbosity) {
+  if (verbosity == Verbosity::kNormal) {
+    fmt::print("{}", results::to_table(result.summary, session.machine().limits));
+  }
+  return result.failure ? tl::unexpected(*result.failure) : Expected<void>();
+}
+
+/// Plots and video of what has been run, and where they are.
+Expected<void> make_pictures(const session::Session& session, const ResultArguments& results,
+                             const VideoArguments& video) {
+  if (results.has_plots) {
+    Progress progress("plots", results.verbosity);
     progress.show(0.0);
     TWIN_CHECK(session.draw_figures());
   }
-  if (options.video) {
-    Progress progress("video", options.quiet);
-    TWIN_CHECK(session.render_video(options.camera, progress.callback()));
+  if (video.is_wanted) {
+    Progress progress("video", results.verbosity);
+    TWIN_CHECK(session.render_video(video.camera, progress.callback()));
   }
-  return {};
-}
-
-/// run and plan differ in the machine alone: null plans only.
-Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bool has_machine) {
-  session::Request request;
-  TWIN_TRY(request.machine, read_machine(options));
-  request.program = options.programs.front();
-  request.feedrate = feedrate_of(options);
-  request.folder = options.out;
-  request.command = options.command;
-  request.pace = options.realtime ? session::Pace::kWallClock : session::Pace::kOwn;
-  request.has_bound = options.bound;
-  if (!options.overrides.empty()) {
-    TWIN_TRY(request.overrides, runtime::parse_override_schedule(options.overrides));
-  }
-  if (has_machine) {
-    request.make_machine = [&options](const config::MachineFile& machine,
-                                      const std::string& purpose) {
-      return open_machine(options, machine, purpose);
-    };
-  }
-  TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
-  TWIN_TRY(const runtime::RunResult result, run_with_operator(session, options, stop));
-  if (!options.quiet) {
-    fmt::print("{}", results::to_table(result.summary, session.machine().limits));
-  }
-  if (result.failure) {
-    return tl::unexpected(*result.failure);
-  }
-  TWIN_CHECK(make_pictures(session, options));
-  if (!options.quiet) {
+  if (results.verbosity == Verbosity::kNormal) {
     fmt::print("results in {}\n", session.folder().string());
   }
   return {};
@@ -85,36 +86,34 @@ Expected<void> execute(const Options& options, const std::atomic<bool>& stop, bo
 
 }  // namespace
 
-Command add_run(const CommandContext& context) {
-  Options& options = context.options;
-  CLI::App* const app = context.app.add_subcommand(
-      "run", "Plan a program, move the machine along it, write the results, print the summary");
-  add_program_options(*app, options);
-  add_machine_options(*app, options);
-  add_interpolator_option(*app, options);
-  add_override_option(*app, options);
-  add_hal_option(*app, options, true);
-  add_rig_options(*app, options, true);
-  app->add_flag("--realtime", options.realtime,
-                "Keep to the wall clock; keys: + - 0 to 9 feed override, space feed hold");
-  add_control_option(*app, options);
-  add_result_options(*app, options);
-  add_video_options(*app, options);
-  return {app, [&options, &stop = context.stop] { return execute(options, stop, true); }};
+Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
+  TWIN_TRY(session::Request request, request_of(arguments.program, arguments.machine,
+                                                arguments.overrides, arguments.results));
+  request.command = environment.command_line;
+  request.make_machine = machine_of(arguments.hal);
+  request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
+  TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
+  TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
+                                                              arguments.control, environment.stop));
+  TWIN_CHECK(report_run(session, result, arguments.results.verbosity));
+  return make_pictures(session, arguments.results, arguments.video);
 }
 
-Command add_plan(const CommandContext& context) {
-  Options& options = context.options;
-  CLI::App* const app = context.app.add_subcommand(
-      "plan", "The same without a machine: set points, planned time, limits");
-  add_program_options(*app, options);
-  add_machine_options(*app, options);
-  add_interpolator_option(*app, options);
-  app->add_flag("--bound", options.bound,
-                "The lower bound of the time as well: the same path without jerk limit");
-  add_override_option(*app, options);
-  add_result_options(*app, options);
-  return {app, [&options, &stop = context.stop] { return execute(options, stop, false); }};
+Expected<void> execute(const PlanArguments& arguments, const Environment& environment) {
+  TWIN_TRY(session::Request request, request_of(arguments.program, arguments.machine,
+                                                arguments.overrides, arguments.results));
+  request.command = environment.command_line;
+  request.has_bound = arguments.has_bound;
+  TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
+  TWIN_TRY(const runtime::RunResult result,
+           run_with_operator(session, arguments.results.verbosity, {}, environment.stop));
+  TWIN_CHECK(report_run(session, result, arguments.results.verbosity));
+  return make_pictures(session, arguments.results, {});
+}
+
+Expected<void> execute(const TextArguments& arguments, const Environment&) {
+  fmt::print("{}", arguments.text);
+  return {};
 }
 
 }  // namespace twin::cli

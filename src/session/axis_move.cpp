@@ -20,6 +20,7 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move,
   request.machine = machine;
   request.hal = &hal;
   request.until = move.until;
+  request.command = move.command;
   TWIN_CHECK(prepare_output_file(program));
   TWIN_CHECK(write_whole_file(
       program, fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == hal::kX ? 'X' : 'Y',

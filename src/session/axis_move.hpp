@@ -20,6 +20,7 @@ struct AxisMove {
   double distance = 0.0;         ///< signed [mm]
   double feedrate = 0.0;         ///< [mm/s]
   std::filesystem::path folder;  ///< of its results; empty: renders/rig_NAME
+  std::string command{};         ///< command line of the caller, for the summary
   runtime::Until until{};        ///< ends it early; empty: nothing does
 };
 

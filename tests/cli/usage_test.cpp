@@ -1,4 +1,7 @@
+#include <sstream>
+
 #include "tests/support/cli_fixture.hpp"
+#include "tests/support/files.hpp"
 
 namespace twin::cli {
 namespace usage_test {
@@ -17,10 +20,47 @@ TEST_F(Usage, HelpListsTheCommandsOnStdout) {
   }
   const auto run = twin({"run", "--help"});
   EXPECT_EQ(run.status, 0);
-  for (const char* option : {"--machine", "--hal", "--interpolator", "--feedrate-mm-per-min",
-                             "--set", "--out", "--video", "--no-plots", "--realtime", "--quiet"}) {
+  for (const char* option : {"--machine", "--hal", "--curves", "--feedrate-mm-per-min", "--set",
+                             "--out", "--video", "--no-plots", "--realtime", "--quiet"}) {
     EXPECT_THAT(run.out, HasSubstr(option));
   }
+}
+
+TEST_F(Usage, NoLineOfAHelpTextIsLongerThanATerminalIsWide) {
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{},
+                                             {"run"},
+                                             {"plan"},
+                                             {"check"},
+                                             {"render"},
+                                             {"compare"},
+                                             {"reproduce"},
+                                             {"circle"},
+                                             {"identify"},
+                                             {"convert"},
+                                             {"rig"},
+                                             {"rig", "jog"},
+                                             {"rig", "emulate"}}) {
+    std::vector<std::string> words = command;
+    words.emplace_back("--help");
+    std::istringstream lines(twin(words).out);
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), 80U) << line;
+    }
+  }
+}
+
+TEST_F(Usage, InterpolatorIsTheOldNameOfCurves) {
+  const auto plan = [this](const std::string& option, const std::string& out) {
+    return twin({"plan", "ok.nc", "--no-plots", "--out", out, option, "linear"});
+  };
+  const auto present = plan("--curves", "a");
+  const auto old = plan("--interpolator", "b");
+  EXPECT_EQ(present.status, 0) << present.err;
+  EXPECT_EQ(old.status, 0) << old.err;
+  EXPECT_THAT(present.err, ::testing::Not(HasSubstr("--interpolator")));
+  EXPECT_THAT(old.err, HasSubstr("twin: note: --interpolator is the old name of --curves\n"));
+  EXPECT_EQ(test::content(folder / "a/trace.csv"), test::content(folder / "b/trace.csv"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {
@@ -50,6 +90,7 @@ TEST_F(Usage, MissingProgramAndTwoProgramsAreBadUsage) {
 
 TEST_F(Usage, ValuesThatAnOptionDoesNotHaveAreBadUsage) {
   expect_refusal(twin({"run", "ok.nc", "--hal", "rug"}), 2, "--hal");
+  expect_refusal(twin({"plan", "ok.nc", "--curves", "cubic"}), 2, "--curves");
   expect_refusal(twin({"plan", "ok.nc", "--interpolator", "cubic"}), 2, "--interpolator");
   expect_refusal(twin({"plan", "ok.nc", "--feedrate-mm-per-min", "0"}), 2, "--feedrate-mm-per-min");
   expect_refusal(twin({"plan", "ok.nc", "--feedrate-mm-per-min", "fast"}), 2,

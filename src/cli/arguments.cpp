@@ -1,0 +1,174 @@
+#include "cli/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string_view>
+
+#include "cli/options.hpp"
+#include "cli/usage.hpp"
+#include "core/version.hpp"
+
+namespace twin::cli {
+namespace {
+
+constexpr std::size_t kColumns = 80;     // of help texts
+constexpr std::size_t kTextColumn = 30;  // where the text of an option begins
+
+/// Help of which no line is longer than kColumns.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return row(make_option_name(option, is_positional) + make_option_opts(option),
+               make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return row(command->get_name(), command->get_description());
+  }
+  std::string make_description(const CLI::App* command) const override {
+    return wrapped(command->get_description(), 0, 0, kColumns) + "\n";
+  }
+
+ private:
+  static std::string row(const std::string& name, const std::string& text) {
+    const std::string label = wrapped("  " + name, 6, 0, kColumns);
+    const bool is_beside = label.size() < kTextColumn;
+    return label +
+           (is_beside ? std::string(kTextColumn - label.size(), ' ')
+                      : "\n" + std::string(kTextColumn, ' ')) +
+           wrapped(text, kTextColumn, kTextColumn, kColumns) + "\n";
+  }
+};
+
+/// The parser of one command line. Only the command that is chosen gets its options.
+class ArgumentParser {
+ public:
+  explicit ArgumentParser(std::span<const char* const> words) : words_(words) {
+    app_.formatter(std::make_shared<HelpFormatter>());
+    app_.set_version_flag("--version", "twin " + std::string(version()));
+    app_.require_subcommand(1);
+    add_commands();
+  }
+
+  Expected<Arguments> parse() {
+    std::vector<std::string> reversed(words_.rbegin(), words_.rend());
+    try {
+      app_.parse(std::move(reversed));
+    } catch (const CLI::CallForVersion& asked) {
+      return TextArguments{std::string(asked.what()) + "\n"};
+    } catch (const CLI::CallForHelp&) {
+      return TextArguments{app_.help()};
+    } catch (const CLI::ParseError& error) {
+      return fail(ErrorCode::kUsage, usage_error(error));
+    }
+    return std::move(arguments_);
+  }
+
+ private:
+  template <class CommandArguments>
+  void add(CLI::App& parent, const std::string& name, const std::string& text) {
+    CLI::App* const command = parent.add_subcommand(name, text);
+    if (is_chosen(*command)) {
+      add_options(*command, arguments_.emplace<CommandArguments>());
+    }
+  }
+
+  void add_commands() {
+    add<RunArguments>(
+        app_, "run",
+        "Plan a program, move the machine along it, write the results, print the summary");
+    add<PlanArguments>(app_, "plan",
+                       "The same without a machine: set points, planned time, limits");
+    add<CheckArguments>(app_, "check",
+                        "Read and verify programs and estimate their cycle time; nothing moves");
+    add<RenderArguments>(app_, "render", "Plots and video again, from the trace in a folder");
+    add<CompareArguments>(
+        app_, "compare",
+        "Planners and interpolators side by side on one program, the parameter updates too; a "
+        "table of the planners for several programs");
+    add<ReproduceArguments>(app_, "reproduce",
+                            "Tables 1 to 5 and Figs. 12 to 19 of Wang and Yau's paper beside ours");
+    add<CircleArguments>(app_, "circle",
+                         "Circular test after ISO 230-4: both senses, deviations, reversal spikes");
+    add<IdentifyArguments>(
+        app_, "identify",
+        "Fit the machine's parameters to recorded traces, and say which are shown");
+    add<ConvertArguments>(
+        app_, "convert",
+        "Write a program as NURBS blocks of a control; runs of short blocks are fitted");
+    add_rig_commands();
+  }
+
+  void add_rig_commands() {
+    CLI::App& rig = *app_.add_subcommand(
+        "rig", "Bring up and exercise the rig: probe, monitor, check, jog, home, emulate");
+    rig.require_subcommand(1);
+    add<RigProbeArguments>(rig, "probe", "Show cards, inputs and drive states; nothing moves");
+    add<RigMonitorArguments>(
+        rig, "monitor",
+        "Show live counts, volts and inputs; nothing moves, a run may go on beside it");
+    add<RigCheckArguments>(
+        rig, "check",
+        "Static wiring test: sign, scale and offset of each axis by a tiny open-loop move");
+    add<RigJogArguments>(rig, "jog", "Move one axis from where it stands, in closed loop");
+    add<RigHomeArguments>(rig, "home",
+                          "Find an axis' zero by limit switch and index, and drive there");
+    add<RigEmulateArguments>(
+        rig, "emulate",
+        "Run cards, drives and table as a process of its own on the wall clock, for --hal rig");
+  }
+
+  /// Whether the command line begins with this command, behind those above it.
+  bool is_chosen(const CLI::App& command) const {
+    std::size_t depth = 0;
+    for (const CLI::App* above = command.get_parent(); above != &app_;
+         above = above->get_parent()) {
+      if (depth++ >= words_.size() || words_[0] != above->get_name()) {
+        return false;
+      }
+    }
+    return depth < words_.size() && words_[depth] == command.get_name();
+  }
+
+  std::string usage_error(const CLI::ParseError& error) const {
+    CommandNames names = names_of(app_);
+    names.name.clear();
+    std::string text = explain(names, words_);
+    if (text.empty()) {
+      text = error.what();
+    }
+    std::ranges::replace(text, '\n', ' ');
+    return text + " (twin --help lists what there is)";
+  }
+
+  static CommandNames names_of(const CLI::App& command) {
+    CommandNames names{command.get_name(), {}, {}};
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& name : option->get_lnames()) {
+        names.options.push_back("--" + name);
+      }
+      for (const std::string& name : option->get_snames()) {
+        names.options.push_back("-" + name);
+      }
+    }
+    for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) {
+      names.commands.push_back(names_of(*below));
+    }
+    return names;
+  }
+
+  std::span<const char* const> words_;
+  Arguments arguments_;
+  CLI::App app_{
+      "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
+      "Start with: twin run dolphin.nc",
+      "twin"};
+};
+
+}  // namespace
+
+Expected<Arguments> parse_arguments(std::span<const char* const> words) {
+  return ArgumentParser(words).parse();
+}
+
+}  // namespace twin::cli

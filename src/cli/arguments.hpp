@@ -1,0 +1,197 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cli/terminal.hpp"
+#include "core/error.hpp"
+
+/// What a command line says, as plain values: a struct for each command, in base units.
+namespace twin::cli {
+
+// Groups of options that several commands have.
+
+/// The NC program, and what replaces its F words.
+struct ProgramArguments {
+  std::string name;                ///< a path, or a name in nc_programs
+  std::optional<double> feedrate;  ///< --feedrate-mm-per-min [mm/s]
+};
+
+/// --machine, --set and --curves.
+struct MachineArguments {
+  std::string file = "xy_table.toml";   ///< a path, or a name in mjcf
+  std::vector<std::string> settings;    ///< section.key=value
+  std::string curves;                   ///< "nurbs", "bezier", "linear"; empty: as the file has it
+  bool has_old_name_of_curves = false;  ///< it was given as --interpolator
+};
+
+/// --hal rig: which rig it is, and what is known of it.
+struct RigArguments {
+  std::string which = "auto";       ///< "auto", "cards", "process", "emulated"
+  std::string name;                 ///< of the emulator's shared memory; empty: the user's own
+  std::filesystem::path log;        ///< gets the events at the emulated boards; empty: none
+  std::vector<std::string> faults;  ///< of emulated boards: KIND[:AXIS]@SECONDS
+  bool is_known_to_move = false;    ///< --i-know-it-moves
+};
+
+/// --hal, and the rig that it may mean.
+struct HalArguments {
+  std::string name = "mujoco";  ///< "mujoco", "ideal", "rig"
+  RigArguments rig;
+};
+
+/// Where results go, and what is said of them.
+struct ResultArguments {
+  std::filesystem::path folder;  ///< --out; empty: one below renders
+  bool has_plots = true;         ///< without --no-plots
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+/// --video and --camera.
+struct VideoArguments {
+  bool is_wanted = false;
+  std::string camera = "iso";
+};
+
+// The commands.
+
+struct RunArguments {
+  ProgramArguments program;
+  MachineArguments machine;
+  HalArguments hal;
+  std::string overrides;          ///< seconds:percent, ...
+  bool is_on_wall_clock = false;  ///< --realtime
+  std::filesystem::path control;  ///< socket for an operator; empty: none
+  ResultArguments results;
+  VideoArguments video;
+};
+
+struct PlanArguments {
+  ProgramArguments program;
+  MachineArguments machine;
+  bool has_bound = false;  ///< the lower bound of the time as well
+  std::string overrides;   ///< seconds:percent, ...
+  ResultArguments results;
+};
+
+struct CheckArguments {
+  std::vector<std::string> programs;
+  std::optional<double> feedrate;  ///< [mm/s]
+  MachineArguments machine;
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct RenderArguments {
+  std::filesystem::path folder;  ///< of an earlier run
+  MachineArguments machine;
+  bool has_plots = true;
+  VideoArguments video;
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct CompareArguments {
+  std::vector<std::string> programs;
+  std::optional<double> feedrate;  ///< [mm/s]
+  MachineArguments machine;
+  std::string hal = "mujoco";  ///< "mujoco", "ideal"
+  ResultArguments results;
+};
+
+struct ReproduceArguments {
+  MachineArguments machine;
+  int repeats = 10;  ///< of the runs, with other phases
+  ResultArguments results;
+};
+
+struct CircleArguments {
+  double radius = 20.0;            ///< [mm]
+  std::optional<double> feedrate;  ///< [mm/s]
+  MachineArguments machine;
+  HalArguments hal;
+  ResultArguments results;
+};
+
+struct IdentifyArguments {
+  std::vector<std::string> traces;  ///< CSV files
+  bool has_tables = false;          ///< the published tables take the place of traces
+  MachineArguments machine;
+  std::string columns;                     ///< SIGNAL=COLUMN[:UNIT],...
+  std::filesystem::path file;              ///< machine file to write; empty: one below renders
+  std::vector<std::string> fixed;          ///< keys that keep the machine file's value
+  std::vector<std::string> freed;          ///< keys that are fitted though they would be held
+  std::uint32_t seed = 1;                  ///< of the global search
+  std::optional<std::size_t> evaluations;  ///< simulations of the global search
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct ConvertArguments {
+  ProgramArguments program;
+  std::string dialect;
+  MachineArguments machine;
+  std::filesystem::path file;  ///< to write; empty: one below renders
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct RigProbeArguments {
+  MachineArguments machine;
+  RigArguments rig;
+};
+
+struct RigMonitorArguments {
+  MachineArguments machine;
+  RigArguments rig;
+  std::optional<double> duration;  ///< [s]; without it to the end of time
+};
+
+struct RigCheckArguments {
+  MachineArguments machine;
+  RigArguments rig;
+};
+
+struct RigJogArguments {
+  std::string axis;                ///< "x", "y"
+  double distance = 0.0;           ///< signed [mm]
+  std::optional<double> feedrate;  ///< always given [mm/s]
+  MachineArguments machine;
+  RigArguments rig;
+  ResultArguments results;
+};
+
+struct RigHomeArguments {
+  std::string axis;  ///< "x", "y"
+  MachineArguments machine;
+  RigArguments rig;
+  ResultArguments results;
+};
+
+struct RigEmulateArguments {
+  MachineArguments machine;
+  RigArguments rig;                ///< name and faults alone
+  std::optional<double> duration;  ///< [s]; without it until it is stopped
+};
+
+/// --help or --version: the text that is asked for.
+struct TextArguments {
+  std::string text;
+};
+
+/// What a command line asks for.
+using Arguments =
+    std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
+                 CompareArguments, ReproduceArguments, CircleArguments, IdentifyArguments,
+                 ConvertArguments, RigProbeArguments, RigMonitorArguments, RigCheckArguments,
+                 RigJogArguments, RigHomeArguments, RigEmulateArguments>;
+
+/// Reads a command line.
+///
+/// @param words  the command line without the program's name
+/// @returns what it asks for; or a kUsage error, one line that names the nearest command or option
+Expected<Arguments> parse_arguments(std::span<const char* const> words);
+
+}  // namespace twin::cli

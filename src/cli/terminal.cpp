@@ -1,0 +1,104 @@
+#include "cli/terminal.hpp"
+
+#include <fmt/core.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace twin::cli {
+namespace {
+
+constexpr int kBarWidth = 30;              // [characters]
+constexpr std::size_t kMessageIndent = 6;  // of the lines after the first: under "twin: "
+
+/// Columns of the terminal at stderr; 0 where there is none.
+std::size_t columns_of_stderr() {
+  if (isatty(STDERR_FILENO) != 1) {
+    return 0;
+  }
+  struct winsize size {};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+void print_message(const std::string& text) {
+  const std::size_t columns = columns_of_stderr();
+  fmt::print(stderr, "{}\n",
+             columns > 2 * kMessageIndent ? wrapped(text, kMessageIndent, 0, columns) : text);
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t first,
+                    std::size_t width) {
+  std::string lines;
+  std::size_t column = first;
+  bool is_new_line = true;
+  const auto break_line = [&] {
+    lines += '\n';
+    column = indent;
+    is_new_line = true;
+  };
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    const std::string_view word = text.substr(0, end);
+    if (!is_new_line && column + 1 + word.size() > width) {
+      break_line();
+    }
+    if (is_new_line && !lines.empty()) {
+      lines.append(indent, ' ');
+    } else if (!is_new_line) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += word.size();
+    is_new_line = false;
+    if (end < text.size() && text[end] == '\n') {
+      break_line();
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+void print_error(std::string_view text) { print_message(fmt::format("twin: {}", text)); }
+
+void print_error(const Error& error) { print_error(to_string(error)); }
+
+void print_note(std::string_view text) { print_message(fmt::format("twin: note: {}", text)); }
+
+Progress::Progress(std::string what, Verbosity verbosity)
+    : what_(std::move(what)),
+      is_shown_(verbosity == Verbosity::kNormal && isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (is_shown_) {
+    fmt::print(stderr, "\r\033[K");
+    std::fflush(stderr);
+  }
+}
+
+void Progress::show(double share) {
+  if (!is_shown_) {
+    return;
+  }
+  const double part = std::clamp(share, 0.0, 1.0);
+  const int done = static_cast<int>(part * kBarWidth);
+  fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %\033[K", what_, "", done, "", kBarWidth - done,
+             part * 100.0);
+  std::fflush(stderr);
+}
+
+void Progress::rename(std::string what) {
+  what_ = std::move(what);
+  show(0.0);
+}
+
+std::function<void(double)> Progress::callback() {
+  return [this](double share) { show(share); };
+}
+
+}  // namespace twin::cli
