@@ -28,7 +28,6 @@ struct RunTask {
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured machine; null: plan only
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
-  std::string command;             ///< command line or other words of the caller, for the summary
 };
 
 /// Where the results of a run go.
