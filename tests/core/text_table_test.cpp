@@ -29,10 +29,10 @@ TEST(TextTable, LayoutIndentsWidensAndShowsNotes) {
   EXPECT_EQ(
       to_text(sample(), {.indent = 2, .row_width = 6, .cell_width = 7, .notes = Notes::kShown}),
       "A table\n"
-      "              first\n"
-      "  row        column        b\n"
-      "  one     um      1.5        2! x\n"
-      "  two           10.25        -*\n");
+      "               first\n"
+      "  row         column        b\n"
+      "  one     um     1.5        2! x\n"
+      "  two          10.25        -*\n");
 }
 
 TEST(TextTable, LinesWithoutCellsAreANameAndAText) {
