@@ -45,7 +45,7 @@ TEST(TableRun, HasTheErrorsOfARunOnTheTableOfMujoco) {
   request.directory = folder / "out";
   const auto run = runtime::run_program(request);
   ASSERT_TRUE(run && run->summary.run);
-  const auto planned = studies::identify::TableRun::plan(request.program, request.machine);
+  const auto planned = studies::identify::TableRun::plan(request.program.file, request.machine);
   ASSERT_TRUE(planned);
   const studies::identify::RunErrors errors = planned->run(request.machine);
   const results::MachineFigures& judge = *run->summary.run;
