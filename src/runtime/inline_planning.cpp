@@ -10,8 +10,8 @@
 namespace twin::runtime {
 namespace {
 
-// Of the quickest stop from the largest feedrate. The planner may leave less acceleration for braking
-// in a corner, so one is not enough; each one more costs memory for the segments on it.
+// Of the quickest stop from the largest feedrate. The planner may leave less acceleration for
+// braking in a corner, so one is not enough; each one more costs memory for the segments on it.
 constexpr double kBrakingDistances = 4.0;
 
 }  // namespace

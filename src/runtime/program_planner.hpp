@@ -47,8 +47,8 @@ class ProgramPlanner {
 
   /// Starts with the whole path planned already. @param segments  of the first plan
   void preload(std::deque<feedrate::PlannedSegment>&& segments, const PlanFigures& figures);
-  /// Reads and plans on until so many segments wait, or fewer that are so long together [mm], or the
-  /// whole path is planned.
+  /// Reads and plans on until so many segments wait, or fewer that are so long together [mm], or
+  /// the whole path is planned.
   Expected<void> plan_ahead(std::size_t segments,
                             double length = std::numeric_limits<double>::infinity());
 
