@@ -4,12 +4,29 @@
 #include <limits>
 #include <utility>
 
+#include "feedrate/profile/brake.hpp"
 #include "runtime/run_errors.hpp"
 
 namespace twin::runtime {
+namespace {
+
+// Of the quickest stop from the largest feedrate. The planner may leave less acceleration for
+// braking in a corner, so one is not enough; each one more costs memory for the segments on it.
+constexpr double kBrakingDistances = 4.0;
+
+}  // namespace
+
+InlinePlanning::InlinePlanning(ProgramPlanner& planner, const config::MachineFile& machine)
+    : planner_(planner), most_ahead_(static_cast<std::size_t>(machine.path.look_ahead)) {
+  const Limits& limits = machine.limits;
+  length_ahead_ = kBrakingDistances *
+                  feedrate::make_brake({.s = 0.0, .v = limits.feedrate, .a = limits.acceleration},
+                                       {.acceleration = limits.acceleration, .jerk = limits.jerk})
+                      .distance;
+}
 
 Expected<void> InlinePlanning::plan_on() {
-  TWIN_CHECK(planner_.plan_ahead(look_ahead_));
+  TWIN_CHECK(planner_.plan_ahead(most_ahead_, length_ahead_));
   while (before_segment &&
          announced_ < handed_out_ + static_cast<std::int64_t>(planner_.waiting())) {
     before_segment(announced_++);

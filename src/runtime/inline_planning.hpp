@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "runtime/program_planner.hpp"
 #include "runtime/replanning.hpp"
@@ -17,10 +18,9 @@ namespace twin::runtime {
 /// another plan is there at once. So nothing depends on the timing of threads.
 class InlinePlanning final : public PlanSupply, public Replanning {
  public:
-  /// @param look_ahead  segments that are planned beyond the one that is followed: the motion can
-  ///                    brake on them if planning fails
-  InlinePlanning(ProgramPlanner& planner, std::size_t look_ahead)
-      : planner_(planner), look_ahead_(look_ahead) {}
+  /// As many segments are planned beyond the one that is followed as the motion needs to brake on
+  /// them if planning fails, but path.look_ahead at most.
+  InlinePlanning(ProgramPlanner& planner, const config::MachineFile& machine);
 
   /// Called before a segment is planned for the motion, with its number from 0.
   std::function<void(std::int64_t)> before_segment;
@@ -46,7 +46,8 @@ class InlinePlanning final : public PlanSupply, public Replanning {
   Expected<void> plan_on();
 
   ProgramPlanner& planner_;
-  std::size_t look_ahead_;
+  std::size_t most_ahead_;                         // segments
+  double length_ahead_;                            // [mm]
   std::deque<feedrate::PlannedSegment> followed_;  // handed out and not released
   std::int64_t plan_ = 0;                          // that is followed
   std::int64_t handed_out_ = 0;

@@ -36,8 +36,22 @@ void ProgramPlanner::preload(std::deque<feedrate::PlannedSegment>&& segments,
   is_all_read_ = true;
 }
 
-Expected<void> ProgramPlanner::plan_ahead(std::size_t segments) {
-  while (waiting() < segments && !is_all_read_) {
+/// Whether so many segments wait, or segments of so much length.
+bool ProgramPlanner::is_ahead(std::size_t segments, double length) noexcept {
+  double ahead = 0.0;
+  for (const auto* waiting_segments : {&older_, &active_->ready()}) {
+    for (const feedrate::PlannedSegment& planned : *waiting_segments) {
+      ahead += planned.segment.length;
+      if (ahead >= length) {
+        return true;
+      }
+    }
+  }
+  return waiting() >= segments;
+}
+
+Expected<void> ProgramPlanner::plan_ahead(std::size_t segments, double length) {
+  while (!is_all_read_ && !is_ahead(segments, length)) {
     TWIN_CHECK(read_on());
   }
   return {};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -46,8 +47,10 @@ class ProgramPlanner {
 
   /// Starts with the whole path planned already. @param segments  of the first plan
   void preload(std::deque<feedrate::PlannedSegment>&& segments, const PlanFigures& figures);
-  /// Reads and plans on until so many segments wait, or the whole path is planned.
-  Expected<void> plan_ahead(std::size_t segments);
+  /// Reads and plans on until so many segments wait, or fewer that are so long together [mm], or
+  /// the whole path is planned.
+  Expected<void> plan_ahead(std::size_t segments,
+                            double length = std::numeric_limits<double>::infinity());
 
   /// Number of planned segments that wait to be followed.
   std::size_t waiting() const noexcept { return older_.size() + active_->ready().size(); }
@@ -84,6 +87,7 @@ class ProgramPlanner {
   };
 
   bool replans() const noexcept { return replans_ == Replans::kOnRequest; }
+  bool is_ahead(std::size_t segments, double length) noexcept;
   Expected<void> read_on();
   void append(path::Segment&& segment);
   Expected<bool> has_segment(std::int64_t index);

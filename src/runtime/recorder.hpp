@@ -24,11 +24,11 @@
 
 namespace twin::runtime {
 
-/// Turns the stream of samples into the rows of the trace and the figures of the summary, in bounded
-/// memory.
+/// Turns the stream of samples into the rows of the trace and the figures of the summary, in
+/// bounded memory.
 ///
-/// For the contour error it goes through the program's blocks by itself, as far ahead of the samples
-/// as it needs, so that its result does not depend on how far planning happens to be.
+/// For the contour error it goes through the program's blocks by itself, as far ahead of the
+/// samples as it needs, so that its result does not depend on how far planning happens to be.
 class Recorder {
  public:
   struct Options {

@@ -148,8 +148,8 @@ void Run::note(const Expected<void>& recorded) {
   }
 }
 
-/// Records the samples that wait, up to a number; after an error drops them, so that the machine can
-/// brake. @returns whether there were any
+/// Records the samples that wait, up to a number; after an error drops them, so that the machine
+/// can brake. @returns whether there were any
 bool Run::record_turn() {
   results::Sample sample;
   bool is_empty = true;

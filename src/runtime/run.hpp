@@ -78,7 +78,7 @@ struct RunResult {
 /// Plans a program, moves the machine along it and records everything.
 ///
 /// Before anything moves, the whole program is read, held against the travel, and planned for the
-/// cycle time. The second reading is that of the run: its blocks go to planning and to the recorder.
+/// cycle time. The second reading is that of the run; its blocks go to planning and the recorder.
 /// A short program in lockstep without overrides is planned once: the run follows the first plan.
 /// The motion has a thread of its own, and the caller's thread is the recorder. On the wall clock
 /// planning has a thread too; in lockstep it is done in the motion's. Whatever ends the motion, the

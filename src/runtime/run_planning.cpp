@@ -16,7 +16,7 @@ std::size_t look_ahead_of(const RunRequest& request) {
 
 LockstepPlanning::LockstepPlanning(const RunRequest& request, ProgramPlanner& planner,
                                    std::atomic<bool>& stop)
-    : planning_(planner, look_ahead_of(request)), stop_(stop) {
+    : planning_(planner, request.machine), stop_(stop) {
   planning_.before_segment = request.hooks.before_segment;
 }
 

@@ -16,7 +16,7 @@ SetPoints::SetPoints(gcode::Reader&& reader, const config::MachineFile& machine)
       reader_(std::move(reader)),
       ramp_{.acceleration = machine.limits.acceleration, .jerk = machine.limits.jerk},
       planner_([this] { return reader_.next(); }, machine_, ProgramPlanner::Replans::kOnRequest),
-      planning_(planner_, static_cast<std::size_t>(machine.path.look_ahead)),
+      planning_(planner_, machine_),
       interpolator_(planning_, machine.period, machine.interpolation),
       feed_(interpolator_, planning_, planning_, panel_,
             {.schedule = {},

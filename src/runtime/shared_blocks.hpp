@@ -23,8 +23,8 @@ using BlockSource = std::function<Expected<std::optional<gcode::Block>>()>;
 ///                       ^ the slower   ^ the faster one: reads on
 ///
 /// Whoever is ahead reads the program on and leaves a copy of the blocks for the other one. So the
-/// memory used is that of the blocks between the two, and neither waits for the other. Blocks change
-/// hands in chunks, so that the lock is seldom taken.
+/// memory used is that of the blocks between the two, and neither waits for the other. Blocks move
+/// in chunks, so that the lock is seldom needed.
 class SharedBlocks {
  public:
   explicit SharedBlocks(gcode::Reader&& reader) : reader_(std::move(reader)) {}

@@ -34,8 +34,8 @@ struct SwitchPlace {
 /// The first such place at least `margin` after another one.
 ///
 /// In a phase of constant jerk the acceleration vanishes at t = -a / j. In a phase of constant
-/// feedrate it is zero throughout, so the place is exactly at the margin. A rest has such a place at
-/// its end only.
+/// feedrate it is zero throughout, so the place is exactly at the margin. A rest has such a place
+/// at its end only.
 ///
 /// @param plan       successive segments, the one of `from` among them
 /// @param margin     least time of motion from `from` on [s]

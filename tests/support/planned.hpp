@@ -38,9 +38,7 @@ struct InlinePlan {
   using Replans = runtime::ProgramPlanner::Replans;
   explicit InlinePlan(const std::string& text, const config::MachineFile& machine = {},
                       Replans replans = Replans::kNever, double percent = 100.0)
-      : file(machine),
-        planner(blocks_of(text), file, replans, percent),
-        planning(planner, static_cast<std::size_t>(file.path.look_ahead)) {}
+      : file(machine), planner(blocks_of(text), file, replans, percent), planning(planner, file) {}
 
   config::MachineFile file;
   runtime::ProgramPlanner planner;

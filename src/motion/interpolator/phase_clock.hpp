@@ -57,8 +57,8 @@ struct PathInstant {
 ///                      |--- place of rest ---> at rest ---------------'
 ///                      '--- path's end ------> ended
 ///
-/// Between plans the segment at hand is still one of the plan that was left; the next one fetched is
-/// the same piece of path in the plan that goes on.
+/// Between plans the segment at hand is still one of the plan that was left. The next one fetched
+/// is the same piece of path in the plan that goes on.
 class PhaseClock {
  public:
   /// @param source  outlives the clock

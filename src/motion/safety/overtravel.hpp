@@ -9,8 +9,8 @@ namespace twin::motion {
 
 /// Limit switches P-OT and N-OT.
 ///
-/// A switch that is met trips. Where the axis stands on a switch before the first period, as after a
-/// stop on it, the switch trips only when the set point moves towards it, so that the axis can be
+/// A switch that is met trips. Where the axis stands on a switch before the first period, as after
+/// a stop on it, the switch trips only when the set point moves towards it, so that the axis can be
 /// driven off. The axis counts as on it until the switch has been closed for kBounce, because
 /// switches bounce and an axis at the edge trembles.
 class Overtravel {
