@@ -27,8 +27,10 @@ Expected<void> execute(const RigEmulateArguments& arguments, const Environment& 
     fmt::print("{}\n", line);
     std::fflush(stdout);
   };
-  tell(fmt::format("emulated rig (simulated), process {}, registers in {}; Ctrl-C ends it",
-                   getpid(), shared_name(arguments.rig)));
+  settings.started = [&] {
+    tell(fmt::format("emulated rig (simulated), process {}, registers in {}; Ctrl-C ends it",
+                     getpid(), shared_name(arguments.rig)));
+  };
   // Above a controller on the same machine, or its command would outrun the plant.
   RealtimeSettings pace = machine.realtime;
   pace.priority = pace.priority > 0 ? std::min(pace.priority + 5, 98) : 0;

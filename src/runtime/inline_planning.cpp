@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "feedrate/profile/brake.hpp"
+#include "feedrate/profile/phases.hpp"
 #include "runtime/run_errors.hpp"
 
 namespace twin::runtime {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "feedrate/limits/corners.hpp"
-#include "tests/support/motion_profile.hpp"
 #include "tests/support/blocks.hpp"
+#include "tests/support/motion_profile.hpp"
 #include "tests/support/plan.hpp"
 
 namespace twin::feedrate {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/support/planned.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/planned.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::runtime {

@@ -31,10 +31,10 @@ class Server {
       : shared_(std::move(shared)),
         rig_(table, wiring, settings.faults, &shared_->boards()),
         teller_(tell),
-        step_(settings.step),
+        settings_(settings),
         step_ns_(nanoseconds(settings.step)) {}
 
-  Expected<ServeResult> run(std::optional<double> duration, const std::atomic<bool>& stop);
+  Expected<ServeResult> run(const std::atomic<bool>& stop);
 
  private:
   Expected<void> advance(std::int64_t now);
@@ -46,7 +46,7 @@ class Server {
   std::unique_ptr<boards::SharedRegisters> shared_;
   EmulatedRig rig_;
   EventTeller teller_;
-  double step_;                 // [s]
+  const ServeSettings& settings_;
   std::int64_t step_ns_;        // [ns]
   std::int64_t next_ = 0;       // when the next step is due [ns]
   std::int64_t next_look_ = 0;  // when to look whether it lives [ns]
@@ -114,13 +114,17 @@ Expected<void> Server::advance(std::int64_t now) {
 void Server::leave_out(std::int64_t nanoseconds_behind) {
   const std::int64_t steps = nanoseconds_behind / step_ns_;
   next_ += steps * step_ns_;
-  result_.left_out += static_cast<double>(steps) * step_;
+  result_.left_out += static_cast<double>(steps) * settings_.step;
   add(EventKind::kFellBehind, steps * step_ns_ / 1'000'000);
 }
 
-Expected<ServeResult> Server::run(std::optional<double> duration, const std::atomic<bool>& stop) {
-  TWIN_CHECK(rig_.power_on(step_));
+Expected<ServeResult> Server::run(const std::atomic<bool>& stop) {
+  const std::optional<double>& duration = settings_.duration;
+  TWIN_CHECK(rig_.power_on(settings_.step));
   shared_->publish();
+  if (settings_.started) {
+    settings_.started();
+  }
   const std::int64_t start = monotonic_ns();
   next_ = start + step_ns_;
   while (!stop.load() && (!duration || next_ - start <= nanoseconds(*duration))) {
@@ -157,7 +161,7 @@ Expected<ServeResult> serve(const mujoco::TableParams& table, const RigSettings&
   TWIN_TRY(std::unique_ptr<boards::SharedRegisters> shared,
            boards::SharedRegisters::create(settings.name.empty() ? boards::default_shared_name()
                                                                  : settings.name));
-  return Server(std::move(shared), table, wiring, settings, tell).run(settings.duration, stop);
+  return Server(std::move(shared), table, wiring, settings, tell).run(stop);
 }
 
 }  // namespace twin::hal::rig::emulator

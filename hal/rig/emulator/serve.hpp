@@ -21,6 +21,7 @@ struct ServeSettings {
   double step = 0.25e-3;             ///< plant time that passes at once [s]
   std::optional<double> duration{};  ///< ends after so long; none: runs until stopped [s]
   std::vector<Fault> faults{};
+  std::function<void()> started{};  ///< called once a controller can attach; may be empty
 };
 
 /// What came of it.
