@@ -7,7 +7,7 @@ std::vector<Binding> home_bindings(MachineFile& machine) {
   std::vector<Binding> list;
   for (const std::size_t axis : {hal::kX, hal::kY}) {
     const std::string section = axis == hal::kX ? "home.x" : "home.y";
-    studies::commissioning::HomeSettings& home = machine.home[axis];
+    HomeSettings& home = machine.home[axis];
     list.push_back({section, "switch", "", choice(home.is_positive, {"n-ot", "p-ot"}), 0.0, 0.0,
                     "limit switch that is sought"});
     list.push_back({section, "seek_feedrate", "mm_per_min", &home.seek_feedrate, 1.0, 6000.0,

@@ -18,7 +18,7 @@
 #include "motion/interpolator/interpolator_settings.hpp"
 #include "motion/safety/safety_settings.hpp"
 #include "motion/servo/gains.hpp"
-#include "studies/commissioning/home_settings.hpp"
+#include "config/home_settings.hpp"
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
 namespace twin::config {
@@ -37,7 +37,7 @@ struct MachineFile {
   RealtimeSettings realtime;
   hal::mujoco::TableParams table;  ///< table.model is absolute once read
   hal::rig::RigSettings rig;       ///< cards and wires of the real machine
-  std::array<studies::commissioning::HomeSettings, hal::kServoAxes> home;
+  std::array<HomeSettings, hal::kServoAxes> home;
 
   /// What is not as the settings ask, or was asked for by a former name: one sentence each, to be
   /// shown to the user.

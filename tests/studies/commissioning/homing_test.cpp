@@ -54,7 +54,7 @@ class PaperAxis {
 };
 
 TEST(Homing, EndsAtZeroFromWhereverItBegins) {
-  const HomeSettings settings{false, 10.0, 1.0, 90.0};
+  const config::HomeSettings settings{false, 10.0, 1.0, 90.0};
   for (const double start : {-99.0, -3.7, 0.0, 55.5, -105.0}) {
     PaperAxis axis(start);
     const auto homed = home_axis(hal::kX, settings, 220.0, 10.0,

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace twin::studies::commissioning {
+namespace twin::config {
 
 /// Where an axis has its home, section [home.x] of the machine file.
 struct HomeSettings {
@@ -10,4 +10,4 @@ struct HomeSettings {
   double zero = 0.0;            ///< from the index to the axis' zero, signed [mm]
 };
 
-}  // namespace twin::studies::commissioning
+}  // namespace twin::config

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 #include "studies/identify/identification_report.hpp"
 #include "studies/identify/recording_columns.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "core/atomic_file.hpp"
 #include "results/trace/csv_trace.hpp"
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 
 namespace twin {
 

@@ -7,7 +7,7 @@
 #include "hal/rig/emulator/emulated_rig.hpp"
 #include "hal/rig/register_cards.hpp"
 #include "hal/rig/rig_machine.hpp"
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 
 namespace twin {
 namespace {

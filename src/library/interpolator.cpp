@@ -1,4 +1,4 @@
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 
 namespace twin {
 namespace {

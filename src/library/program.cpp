@@ -3,7 +3,7 @@
 
 #include "config/find_file.hpp"
 #include "runtime/program_check.hpp"
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 
 namespace twin {
 

@@ -1,6 +1,6 @@
 #include "runtime/run.hpp"
 
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 #include "session/results.hpp"
 
 namespace twin {

@@ -8,7 +8,7 @@
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
 #include "config/overrides.hpp"
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 
 namespace twin {
 namespace {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/nearest_name.hpp"
-#include "session/api/inside.hpp"
+#include "library/inside.hpp"
 
 namespace twin {
 namespace {
