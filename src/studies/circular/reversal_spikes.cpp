@@ -1,6 +1,6 @@
 #include "studies/circular/reversal_spikes.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 #include "studies/identify/gain_fit.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "motion/servo/axis_scaling.hpp"
