@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/home_settings.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
@@ -18,7 +19,6 @@
 #include "motion/interpolator/interpolator_settings.hpp"
 #include "motion/safety/safety_settings.hpp"
 #include "motion/servo/gains.hpp"
-#include "config/home_settings.hpp"
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
 namespace twin::config {

@@ -1,7 +1,7 @@
 #include "core/path_settings.hpp"
+#include "library/inside.hpp"
 #include "runtime/program_bound.hpp"
 #include "runtime/program_check.hpp"
-#include "library/inside.hpp"
 
 namespace twin {
 

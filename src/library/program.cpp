@@ -2,8 +2,8 @@
 #include <filesystem>
 
 #include "config/find_file.hpp"
-#include "runtime/program_check.hpp"
 #include "library/inside.hpp"
+#include "runtime/program_check.hpp"
 
 namespace twin {
 

@@ -2,8 +2,8 @@
 #include <system_error>
 
 #include "core/atomic_file.hpp"
-#include "results/trace/csv_trace.hpp"
 #include "library/inside.hpp"
+#include "results/trace/csv_trace.hpp"
 
 namespace twin {
 

@@ -25,8 +25,8 @@ Expected<HomingStop> seek(const HomingMove& wanted, const char* what, const Make
 
 }  // namespace
 
-Expected<void> home_axis(hal::Axis axis, const config::HomeSettings& settings, double length, double lead,
-                         const MakeMove& move) {
+Expected<void> home_axis(hal::Axis axis, const config::HomeSettings& settings, double length,
+                         double lead, const MakeMove& move) {
   const double outward = settings.is_positive ? 1.0 : -1.0;
   HomingMove next{axis, settings.is_positive, outward * kMargin * length, settings.seek_feedrate,
                   Until::kLimitReached};

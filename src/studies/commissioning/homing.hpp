@@ -5,9 +5,9 @@
 #include <functional>
 #include <optional>
 
+#include "config/home_settings.hpp"
 #include "core/error.hpp"
 #include "hal/signals.hpp"
-#include "config/home_settings.hpp"
 
 namespace twin::studies::commissioning {
 
@@ -46,7 +46,7 @@ using MakeMove = std::function<Expected<HomingStop>(const HomingMove&)>;
 /// index_feedrate.
 /// @param length  the axis' whole travel: the farthest way to the switch [mm]
 /// @param lead    the farthest way from index to index [mm]
-Expected<void> home_axis(hal::Axis axis, const config::HomeSettings& settings, double length, double lead,
-                         const MakeMove& move);
+Expected<void> home_axis(hal::Axis axis, const config::HomeSettings& settings, double length,
+                         double lead, const MakeMove& move);
 
 }  // namespace twin::studies::commissioning
