@@ -50,16 +50,17 @@ function(twin_library name)
   twin_unity(twin_${name} ${ARG_UNITY_BATCH})
 endfunction()
 
-# twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [SHARDS n] [LABELS slow] [SERIAL] [PROGRAM] [UNITY_BATCH n])
+# twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [SHARDS n] [LABELS slow] [SERIAL] [PROGRAM] [PLAIN] [UNITY_BATCH n])
 # makes program gcode_test. ctest has an entry for each of its n shards, which gtest deals the tests to. SERIAL ones,
-# on the wall clock, run with nothing beside; those of PROGRAM start the program `twin`.
+# on the wall clock, run with nothing beside; those of PROGRAM start the program `twin`;
+# PLAIN ones, which compute next to nothing themselves, are compiled without optimisation.
 function(twin_test name)
-  cmake_parse_arguments(ARG "SERIAL;PROGRAM" "SHARDS;UNITY_BATCH" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;PROGRAM;PLAIN" "SHARDS;UNITY_BATCH" "SOURCES;DEPS;LABELS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${ARG_DEPS} twin_test_support GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE TWIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   if(NOT TWIN_SANITIZE AND CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${name}_test PRIVATE -O1)
+    target_compile_options(${name}_test PRIVATE $<IF:$<BOOL:${ARG_PLAIN}>,-O0,-O1>)
   endif()
   if(ARG_PROGRAM)
     target_compile_definitions(${name}_test PRIVATE TWIN_EXECUTABLE="$<TARGET_FILE:twin_program>")

@@ -50,9 +50,7 @@ Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>
     }
     machine.path.planner = Planner::kPaper;
     machine.add_note(
-        fmt::format("planning.planner = paper, because {} = {} is not among what the certified "
-                    "planner has",
-                    setting.path, setting.value));
+        fmt::format("planning.planner = paper, because {} = {}", setting.path, setting.value));
   }
   return {};
 }
