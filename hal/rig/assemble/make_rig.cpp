@@ -72,6 +72,8 @@ Expected<std::unique_ptr<RigMachine>> make_process_rig(const RigSetup& setup) {
                                       std::make_shared<emulator::SharedBench>(shared), guard.get());
 }
 
+}  // namespace
+
 std::unique_ptr<RigMachine> make_emulated_rig(RigSetup setup) {
   const std::shared_ptr<emulator::EmulatedRig> bench(
       new emulator::EmulatedRig(setup.table, setup.wiring, std::move(setup.faults)),
@@ -84,8 +86,6 @@ std::unique_ptr<RigMachine> make_emulated_rig(RigSetup setup) {
   const auto open = [bench, wiring = setup.wiring] { return open_boards(bench->boards(), wiring); };
   return std::make_unique<RigMachine>(setup.wiring, scales_of(setup.table), open, bench);
 }
-
-}  // namespace
 
 Expected<std::unique_ptr<RigMachine>> make_rig(RigKind kind, RigSetup setup) {
   install_emergency_handlers();

@@ -32,6 +32,9 @@ struct RigSetup {
 /// emulator's process. Installs the handlers of emergency.hpp.
 Expected<std::unique_ptr<RigMachine>> make_rig(RigKind kind, RigSetup setup);
 
+/// The same for emulated boards in this process, which need neither guard nor handlers.
+std::unique_ptr<RigMachine> make_emulated_rig(RigSetup setup);
+
 /// Name and scales of a rig.
 MachineInfo rig_info(const RigSettings& wiring, const mujoco::TableParams& table);
 
