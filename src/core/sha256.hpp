@@ -1,15 +1,22 @@
 #pragma once
 
-#include <filesystem>
+#include <nettle/sha2.h>
+
 #include <string>
 #include <string_view>
 
 namespace twin {
 
-/// SHA-256 of some bytes [FIPS 180-4], as 64 lower-case hexadecimal digits.
-std::string sha256(std::string_view bytes);
+/// SHA-256 of bytes that come one piece after the other [FIPS 180-4].
+class Sha256 {
+ public:
+  Sha256();
+  void add(std::string_view bytes);
+  /// The digest of all bytes added, as 64 lower-case hexadecimal digits; then it begins anew.
+  std::string finish();
 
-/// SHA-256 of a file of any size; empty when it cannot be read.
-std::string sha256_of_file(const std::filesystem::path& file);
+ private:
+  sha256_ctx context_;
+};
 
 }  // namespace twin

@@ -1,12 +1,10 @@
 #include "gcode/line_source.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
+#include <utility>
 
 #include "gcode/lexer.hpp"
 
@@ -17,12 +15,6 @@ constexpr std::size_t kBufferSize = 65536;                     // [bytes]
 constexpr std::size_t kWindow = LineSource::kLongestLine + 2;  // a whole line with its CR LF
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-std::string reason(int code) { return std::generic_category().message(code); }
-
-tl::unexpected<Error> file_error(const std::string& path, std::string message) {
-  return tl::unexpected<Error>(Error{ErrorCode::kFile, std::move(message), path, 0, 0});
-}
-
 std::size_t find_in(std::string_view text, char c) {
   const void* at = std::memchr(text.data(), c, text.size());
   return at == nullptr ? text.size()
@@ -31,49 +23,24 @@ std::size_t find_in(std::string_view text, char c) {
 
 }  // namespace
 
-Expected<LineSource> LineSource::open(const std::string& path) {
-  LineSource source;
-  source.file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!source.file_) {
-    return file_error(path, fmt::format("cannot open the NC program: {}", reason(errno)));
-  }
-  struct stat status {};
-  if (::fstat(::fileno(source.file_.get()), &status) != 0) {
-    return file_error(path, fmt::format("cannot read the NC program: {}", reason(errno)));
-  }
-  if (S_ISDIR(status.st_mode)) {
-    return file_error(path, "is a directory; expected an NC program");
-  }
-  source.size_ = S_ISREG(status.st_mode) ? static_cast<std::int64_t>(status.st_size) : 0;
-  source.buffer_.resize(kBufferSize);
-  return source;
+LineSource::LineSource(ProgramText program) : program_(std::move(program)) {
+  buffer_.resize(std::min(kBufferSize, static_cast<std::size_t>(program_.size())));
 }
 
-LineSource LineSource::from_text(std::string text) {
-  LineSource source;
-  source.buffer_ = std::move(text);
-  source.end_ = source.buffer_.size();
-  source.size_ = static_cast<std::int64_t>(source.end_);
-  return source;
-}
-
+/// Moves what is unread to the front of the buffer and fills the rest from the program.
 Expected<void> LineSource::refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  errno = 0;
-  end_ += std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
-  if (std::ferror(file_.get()) != 0) {
-    return fail(ErrorCode::kFile, fmt::format("cannot read on: {}", reason(errno)));
-  }
-  if (end_ < buffer_.size()) {
-    file_.reset();
-  }
+  TWIN_TRY(const std::size_t count,
+           program_.copy(taken_, {buffer_.data() + end_, buffer_.size() - end_}));
+  taken_ += static_cast<std::int64_t>(count);
+  end_ += count;
   return {};
 }
 
 Expected<std::optional<std::string_view>> LineSource::next() {
-  if (file_ && end_ - begin_ < kWindow) {
+  if (taken_ < program_.size() && end_ - begin_ < kWindow) {
     TWIN_CHECK(refill());
   }
   if (line_ == 0 && begin_ == 0 &&

@@ -1,57 +1,48 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 
 namespace twin::gcode {
 
-/// The lines of a file or a text, one at a time, in constant memory.
+/// The lines of a program, one at a time, in constant memory.
 ///
 /// Lines end in LF, CR LF or CR; the last one may lack its end. A UTF-8 byte order mark is skipped.
 ///
 ///   buffer   |<-- given out -->|<------ unread ------>|
 ///            0               begin_                  end_
 /// Before a line is looked for, the buffer holds a whole line of the largest length or the rest of
-/// the file, so a line is never in two pieces.
+/// the program, so a line is never in two pieces.
 class LineSource {
  public:
   static constexpr std::size_t kLongestLine = 4096;  ///< longer lines are refused [bytes]
 
-  /// Opens a file; refuses what is missing, unreadable or a directory.
-  static Expected<LineSource> open(const std::string& path);
-
-  /// Lines of a text held in memory.
-  static LineSource from_text(std::string text);
+  explicit LineSource(ProgramText program);
 
   /// The next line without its end, or nullopt after the last; valid until the next call.
   ///
-  /// Fails on a line longer than kLongestLine and when the file cannot be read on.
+  /// Fails on a line longer than kLongestLine and when the program's copy cannot be read on.
   Expected<std::optional<std::string_view>> next();
 
   std::int64_t line() const noexcept { return line_; }  ///< number of the last line given, from 1
   std::int64_t bytes_read() const noexcept { return bytes_; }  ///< bytes given out so far
-  std::int64_t size() const noexcept { return size_; }  ///< bytes in all; 0: not known (a pipe)
+  std::int64_t size() const noexcept { return program_.size(); }  ///< bytes in all
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
-
   Expected<void> refill();
 
-  std::unique_ptr<std::FILE, Close> file_;  // null: everything is in the buffer
+  ProgramText program_;
+  std::int64_t taken_ = 0;  // bytes of the program that went to the buffer
   std::string buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::int64_t line_ = 0;
   std::int64_t bytes_ = 0;
-  std::int64_t size_ = 0;
 };
 
 }  // namespace twin::gcode

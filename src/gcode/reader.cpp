@@ -13,20 +13,20 @@ constexpr std::int64_t kLargestLine = std::numeric_limits<int>::max();  // an Er
 
 }  // namespace
 
+Reader::Reader(const ProgramText& program, const ReaderOptions& options)
+    : source_(program),
+      name_(program.file().string()),
+      skips_deleted_blocks_(options.block_delete),
+      interpreter_(options.start, options.feedrate) {}
+
 Expected<Reader> Reader::open(const std::string& path, const ReaderOptions& options) {
-  TWIN_TRY(auto source, LineSource::open(path));
-  return Reader(std::move(source), path, options);
+  TWIN_TRY(const ProgramText program, ProgramText::read(path));
+  return Reader(program, options);
 }
 
 Reader Reader::from_text(std::string text, std::string name, const ReaderOptions& options) {
-  return {LineSource::from_text(std::move(text)), std::move(name), options};
+  return Reader(ProgramText::from_text(std::move(text), std::move(name)), options);
 }
-
-Reader::Reader(LineSource source, std::string name, const ReaderOptions& options)
-    : source_(std::move(source)),
-      name_(std::move(name)),
-      skips_deleted_blocks_(options.block_delete),
-      interpreter_(options.start, options.feedrate) {}
 
 Expected<std::optional<Block>> Reader::next() {
   if (error_) {

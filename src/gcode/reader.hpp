@@ -11,6 +11,7 @@
 #include "gcode/interpreter.hpp"
 #include "gcode/line_source.hpp"
 #include "gcode/line_words.hpp"
+#include "gcode/program_text.hpp"
 
 namespace twin::gcode {
 
@@ -23,7 +24,7 @@ struct ReaderOptions {
 
 /// Reads an NC program block by block, in constant memory.
 ///
-///   file -> LineSource -> line -> Lexer -> LineWords -> Interpreter -> Block
+///   ProgramText -> LineSource -> line -> Lexer -> LineWords -> Interpreter -> Block
 ///
 /// The reader understands
 ///   G00 to G04, G05.2 G05.3 and G06.2 G06.3 (NURBS, see NurbsCollector), G17 G18 G19, G20 G21,
@@ -37,8 +38,9 @@ struct ReaderOptions {
 /// block.
 class Reader {
  public:
-  /// Opens a program in a file. Fails with ErrorCode::kFile if it is missing, unreadable or a
-  /// directory.
+  explicit Reader(const ProgramText& program, const ReaderOptions& options = {});
+
+  /// Reads the program in a file (see ProgramText::read()) for this reading alone.
   static Expected<Reader> open(const std::string& path, const ReaderOptions& options = {});
 
   /// A program held in memory; name takes the place of the path in messages.
@@ -56,12 +58,10 @@ class Reader {
   /// Bytes of the program read so far.
   std::int64_t bytes_read() const noexcept { return source_.bytes_read(); }
 
-  /// Bytes of the whole file; 0 if not known, as of a pipe.
+  /// Bytes of the whole program.
   std::int64_t size() const noexcept { return source_.size(); }
 
  private:
-  Reader(LineSource source, std::string name, const ReaderOptions& options);
-
   Expected<void> read_line();
   Expected<void> read_percent_line(std::string_view text, int column);
   Expected<void> finish();

@@ -7,10 +7,10 @@
 
 namespace twin::runtime {
 
-Expected<double> time_bound(const ProgramSource& program, const config::MachineFile& machine,
+Expected<double> time_bound(const gcode::ProgramText& program, const config::MachineFile& machine,
                             const std::optional<double>& feedrate,
                             feedrate::TimeBound::Profile profile) {
-  TWIN_TRY(gcode::Reader reader, open_program(program, {.feedrate = feedrate}));
+  gcode::Reader reader(program, {.feedrate = feedrate});
   feedrate::TimeBound bound(machine.limits, machine.planning, machine.path, machine.period,
                             std::move(profile));
   TWIN_CHECK(plan_program(reader, machine, [&](feedrate::PlannedSegment&& planned) {

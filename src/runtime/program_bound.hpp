@@ -5,7 +5,7 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "feedrate/bound/time_bound.hpp"
-#include "runtime/program_source.hpp"
+#include "gcode/program_text.hpp"
 
 namespace twin::runtime {
 
@@ -14,7 +14,7 @@ namespace twin::runtime {
 /// @param feedrate  replaces the program's F words [mm/s]
 /// @param profile   if given, gets the bound's feedrate along the path
 /// @returns [s]
-Expected<double> time_bound(const ProgramSource& program, const config::MachineFile& machine,
+Expected<double> time_bound(const gcode::ProgramText& program, const config::MachineFile& machine,
                             const std::optional<double>& feedrate,
                             feedrate::TimeBound::Profile profile = {});
 

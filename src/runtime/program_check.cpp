@@ -66,6 +66,19 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   }
 }
 
+/// Reads on to the program's end, or as long as it is asked to, and checks every block.
+Expected<void> check_rest(gcode::Reader& reader, TravelCheck& check,
+                          const std::function<bool()>& goes_on) {
+  while (goes_on()) {
+    TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
+    if (!block) {
+      break;
+    }
+    TWIN_CHECK(check.add(*block));
+  }
+  return {};
+}
+
 }  // namespace
 
 TravelCheck::TravelCheck(std::string file, const Vec3& start, const Limits& limits)
@@ -98,43 +111,39 @@ Expected<void> TravelCheck::add(const gcode::Block& block) {
   return {};
 }
 
-Expected<ProgramFigures> check_program(const ProgramSource& program,
+Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
                                        const gcode::ReaderOptions& options, const Limits& limits) {
-  TWIN_TRY(gcode::Reader reader, open_program(program, options));
-  TravelCheck check(program.file.string(), options.start, limits);
-  for (;;) {
-    TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
-    if (!block) {
-      break;
-    }
-    TWIN_CHECK(check.add(*block));
-  }
+  gcode::Reader reader(program, options);
+  TravelCheck check(program.file().string(), options.start, limits);
+  TWIN_CHECK(check_rest(reader, check, [] { return true; }));
   ProgramFigures figures = check.figures();
   figures.lines = reader.line();
   return figures;
 }
 
-Expected<Estimate> estimate_program(const ProgramSource& program,
+Expected<Estimate> estimate_program(const gcode::ProgramText& program,
                                     const gcode::ReaderOptions& options,
                                     const config::MachineFile& machine,
                                     const std::atomic<bool>* stop,
-                                    const std::function<void(feedrate::PlannedSegment&&)>& listen) {
-  TWIN_TRY(gcode::Reader reader, open_program(program, options));
-  TravelCheck check(program.file.string(), options.start, machine.limits);
+                                    const std::function<bool(feedrate::PlannedSegment&&)>& listen) {
+  gcode::Reader reader(program, options);
+  TravelCheck check(program.file().string(), options.start, machine.limits);
+  Estimate estimate;
   const auto goes_on = [stop] { return stop == nullptr || !stop->load(); };
   const auto sink = [&](feedrate::PlannedSegment&& planned) {
-    if (listen) {
-      listen(std::move(planned));
-    }
-    return goes_on();
+    estimate.is_whole = estimate.is_whole && (!listen || listen(std::move(planned)));
+    return estimate.is_whole && goes_on();
   };
-  TWIN_TRY(const PlanFigures plan,
+  TWIN_TRY(estimate.plan,
            plan_program(reader, machine, sink,
                         [&](const gcode::Block& block) { return check.add(block); }));
+  if (!estimate.is_whole) {
+    TWIN_CHECK(check_rest(reader, check, goes_on));
+  }
   if (!goes_on()) {
     return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
   }
-  Estimate estimate{.program = check.figures(), .plan = plan};
+  estimate.program = check.figures();
   estimate.program.lines = reader.line();
   return estimate;
 }

@@ -8,9 +8,9 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "gcode/program_text.hpp"
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
-#include "runtime/program_source.hpp"
 
 namespace twin::runtime {
 
@@ -44,22 +44,24 @@ class TravelCheck {
 /// Reads a program to its end and holds it against the machine's travel.
 ///
 /// @returns the first error of the program, or the first block that leaves the travel
-Expected<ProgramFigures> check_program(const ProgramSource& program,
+Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
                                        const gcode::ReaderOptions& options, const Limits& limits);
 
 /// What is known of a program before it runs.
 struct Estimate {
   ProgramFigures program;
   PlanFigures plan;  ///< its time is the cycle time of a run, less than a period aside
+  bool is_whole = true;  ///< the plan is one of the whole program
 };
 
 /// Checks a program like check_program() and plans it in the same reading. Nothing moves.
 ///
 /// @param stop    ends it with kInterrupted; may be null
-/// @param listen  if given, gets each planned segment
+/// @param listen  if given, gets each planned segment; where it returns false the rest of the
+///                program is checked only
 Expected<Estimate> estimate_program(
-    const ProgramSource& program, const gcode::ReaderOptions& options,
+    const gcode::ProgramText& program, const gcode::ReaderOptions& options,
     const config::MachineFile& machine, const std::atomic<bool>* stop,
-    const std::function<void(feedrate::PlannedSegment&&)>& listen = {});
+    const std::function<bool(feedrate::PlannedSegment&&)>& listen = {});
 
 }  // namespace twin::runtime

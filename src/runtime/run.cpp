@@ -1,5 +1,7 @@
 #include "runtime/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -10,7 +12,6 @@
 
 #include "config/settings.hpp"
 #include "core/atomic_file.hpp"
-#include "core/sha256.hpp"
 #include "core/version.hpp"
 #include "hal/active_machine.hpp"
 #include "runtime/program_check.hpp"
@@ -27,8 +28,8 @@ namespace {
 constexpr std::size_t kSampleBuffer = 16384;
 constexpr int kSamplesATurn = 1000;  // recorded between two looks at the user's wish to stop
 
-constexpr std::size_t kMostKept =
-    4096;  // segments of a plan that a run follows without another one
+// Segments of a plan that a run follows without another one.
+constexpr std::size_t kMostKept = 4096;
 
 /// What is known of a run before it starts.
 struct Outlook {
@@ -208,7 +209,7 @@ results::Summary Run::summarise(double wall_time) {
   const config::MachineFile& machine = request_.machine;
   const PlanFigures figures = planner_.figures();
   results::Summary summary;
-  summary.program = request_.program.file.filename().string();
+  summary.program = request_.program.file().filename().string();
   summary.machine = machine.name;
   summary.hal = request_.hal == nullptr ? "none" : request_.hal->info().name;
   summary.planner = kPlannerNames[static_cast<std::size_t>(machine.path.planner)];
@@ -221,8 +222,12 @@ results::Summary Run::summarise(double wall_time) {
   summary.notes = machine.notes;
   summary.version = version();
   summary.command = request_.command;
-  summary.program_sha256 = request_.program.text ? sha256(*request_.program.text)
-                                                 : sha256_of_file(request_.program.file);
+  summary.program_sha256 = request_.program.sha256();
+  if (request_.program.has_changed()) {
+    summary.notes.push_back(
+        fmt::format("{} has changed since it was read; this run is of the program as it was then",
+                    summary.program));
+  }
   summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
   if (summary.run) {
@@ -271,8 +276,9 @@ Expected<RunResult> Run::execute() {
   return result;
 }
 
-/// Reads the whole program before anything moves, and plans it where a cycle time is wanted. A plan
-/// that is not too long, and that nothing can change on the way, is the one that the run follows.
+/// Reads the whole program before anything moves, and plans it where the plan is of use: where
+/// nothing can change it on the way and it is not too long, the run follows it, so it is made once;
+/// where an operator or a schedule may change it, for the cycle time.
 Expected<Outlook> look_at(const RunRequest& request) {
   const gcode::ReaderOptions options = reader_options(request);
   if (request.hal == nullptr && request.overrides.empty()) {
@@ -281,19 +287,21 @@ Expected<Outlook> look_at(const RunRequest& request) {
     return Outlook{.program = program, .plan = std::nullopt, .segments = {}};
   }
   Outlook outlook{.program = {}, .plan = std::nullopt, .segments = {}};
-  outlook.is_kept = !has_control(request);
+  const bool keeps = !has_control(request);
   TWIN_TRY(const Estimate estimate,
            estimate_program(request.program, options, request.machine, request.stop,
-                            [&outlook](feedrate::PlannedSegment&& planned) {
-                              outlook.is_kept =
-                                  outlook.is_kept && outlook.segments.size() < kMostKept;
-                              if (outlook.is_kept) {
+                            [&outlook, keeps](feedrate::PlannedSegment&& planned) {
+                              if (keeps) {
                                 outlook.segments.push_back(std::move(planned));
-                              } else {
-                                outlook.segments.clear();
                               }
+                              return outlook.segments.size() <= kMostKept;
                             }));
   outlook.program = estimate.program;
+  outlook.is_kept = keeps && estimate.is_whole;
+  if (!estimate.is_whole) {
+    outlook.segments.clear();
+    return outlook;
+  }
   outlook.plan = estimate.plan;
   if (request.estimated) {
     request.estimated(estimate.plan.time);
@@ -317,8 +325,7 @@ Expected<RunResult> run_program(const RunRequest& request) {
   TWIN_CHECK(make_folders(request.directory));
   hal::ActiveMachine machine(request.hal);
   TWIN_CHECK(machine.start(request.machine.period));
-  TWIN_TRY(gcode::Reader reader, open_program(request.program, reader_options(request)));
-  SharedBlocks blocks(std::move(reader));
+  SharedBlocks blocks(gcode::Reader(request.program, reader_options(request)));
   TWIN_TRY(Recorder recorder, Recorder::create(recorder_options(request), blocks.second()));
   Run run(request, outlook, blocks, std::move(recorder));
   return run.execute();

@@ -11,20 +11,20 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "results/metrics/summary.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
-#include "runtime/program_source.hpp"
 #include "twin/trace.hpp"
 
 namespace twin::runtime {
 
 /// What a run does.
 struct RunTask {
-  ProgramSource program;
+  gcode::ProgramText program;
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured machine; null: plan only
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
@@ -77,9 +77,10 @@ struct RunResult {
 
 /// Plans a program, moves the machine along it and records everything.
 ///
-/// Before anything moves, the whole program is read, held against the travel, and planned for the
-/// cycle time. The second reading is that of the run; its blocks go to planning and the recorder.
-/// A short program in lockstep without overrides is planned once: the run follows the first plan.
+/// Before anything moves, the whole program is gone through, held against the travel, and planned
+/// for the cycle time. The second pass is that of the run; its blocks go to planning and the
+/// recorder. In lockstep without overrides a program is planned once: the run follows the first
+/// plan, or, where that gets too long to be kept, the first pass goes on without planning.
 /// The motion has a thread of its own, and the caller's thread is the recorder. On the wall clock
 /// planning has a thread too; in lockstep it is done in the motion's. Whatever ends the motion, the
 /// machine is off by then; what throws in a thread, progress() included, brakes it.

@@ -4,10 +4,10 @@
 
 namespace twin::runtime {
 
-Expected<std::unique_ptr<SetPoints>> SetPoints::open(const ProgramSource& program,
+Expected<std::unique_ptr<SetPoints>> SetPoints::open(const gcode::ProgramText& program,
                                                      const config::MachineFile& machine,
                                                      const std::optional<double>& feedrate) {
-  TWIN_TRY(gcode::Reader reader, open_program(program, {.feedrate = feedrate}));
+  gcode::Reader reader(program, {.feedrate = feedrate});
   return std::unique_ptr<SetPoints>(new SetPoints(std::move(reader), machine));
 }
 

@@ -6,6 +6,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 #include "gcode/reader.hpp"
 #include "motion/interpolator/interpolator.hpp"
 #include "motion/interpolator/set_point.hpp"
@@ -13,7 +14,6 @@
 #include "runtime/inline_planning.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/program_planner.hpp"
-#include "runtime/program_source.hpp"
 
 namespace twin::runtime {
 
@@ -25,7 +25,7 @@ namespace twin::runtime {
 class SetPoints {
  public:
   /// @param feedrate  replaces the program's F words [mm/s]
-  static Expected<std::unique_ptr<SetPoints>> open(const ProgramSource& program,
+  static Expected<std::unique_ptr<SetPoints>> open(const gcode::ProgramText& program,
                                                    const config::MachineFile& machine,
                                                    const std::optional<double>& feedrate = {});
   SetPoints(const SetPoints&) = delete;

@@ -1,0 +1,269 @@
+#include "gcode/program_text.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "core/atomic_file.hpp"
+#include "core/descriptor.hpp"
+#include "core/sha256.hpp"
+#include "gcode/line_source.hpp"
+
+namespace twin::gcode {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPiece = std::size_t{1} << 18;          // read at a time [bytes]
+constexpr std::int64_t kLongestPipe = std::int64_t{1} << 32;  // [bytes]
+constexpr int kLookAtStop = 50;                               // every so often [ms]
+
+tl::unexpected<Error> named(const fs::path& file, ErrorCode code, std::string message) {
+  return tl::unexpected(Error{code, std::move(message), file.string(), 0, 0});
+}
+
+bool is_standard_input(const fs::path& path) { return path == "-" || path == "/dev/stdin"; }
+
+/// What tells one state of a file from another.
+struct FileState {
+  dev_t device = 0;
+  ino_t inode = 0;
+  off_t size = 0;
+  timespec written{};
+
+  explicit FileState(const struct stat& status)
+      : device(status.st_dev),
+        inode(status.st_ino),
+        size(status.st_size),
+        written(status.st_mtim) {}
+  bool operator==(const FileState& other) const noexcept {
+    return device == other.device && inode == other.inode && size == other.size &&
+           written.tv_sec == other.written.tv_sec && written.tv_nsec == other.written.tv_nsec;
+  }
+};
+
+/// Makes a file without a name in a folder, or where that is not there, in the nearest folder above
+/// it. @returns its descriptor, or -1 and errno
+int nameless_file(fs::path folder) {
+  std::error_code code;
+  if (folder.empty()) {
+    folder = fs::temp_directory_path(code);
+  }
+  while (!folder.empty() && !fs::is_directory(folder, code) && folder.has_relative_path()) {
+    folder = folder.parent_path();
+  }
+  folder = folder.empty() ? fs::path(".") : folder;
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)) {
+    return descriptor;
+  }
+  std::string name = (folder / ".twin-program-XXXXXX").string();
+  const int named_file = ::mkostemp(name.data(), O_CLOEXEC);
+  if (named_file >= 0) {
+    ::unlink(name.c_str());
+  }
+  return named_file;
+}
+
+/// Writes all bytes. @returns 0 or errno
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) {
+      return errno;
+    }
+    bytes.remove_prefix(written > 0 ? static_cast<std::size_t>(written) : 0);
+  }
+  return 0;
+}
+
+/// Whether a text has a line that no reading gets past, so that what follows need not be copied. It
+/// keeps what is no program, as /dev/zero, from being read for ever.
+class LongLineWatch {
+ public:
+  bool add(std::string_view bytes) {
+    for (std::size_t begin = 0; begin < bytes.size();) {
+      const std::size_t end = std::min(bytes.find_first_of("\r\n", begin), bytes.size());
+      length_ += end - begin;
+      if (length_ > LineSource::kLongestLine + 2) {
+        return true;
+      }
+      length_ = end < bytes.size() ? 0 : length_;
+      begin = end + 1;
+    }
+    return false;
+  }
+
+ private:
+  std::size_t length_ = 0;
+};
+
+}  // namespace
+
+struct ProgramText::Data {
+  fs::path file;
+  std::string text;      // the program, or empty where it is in the copy
+  Descriptor copy{};     // without a name
+  std::int64_t size = 0;
+  std::string sha256;
+  std::optional<FileState> state;  // of a regular file
+};
+
+namespace {
+
+/// Reads a program from an open file into Data.
+template <class Data>
+class Copying {
+ public:
+  Copying(Data& data, const ProgramText::Reading& reading) : data_(data), reading_(reading) {}
+
+  Expected<void> run(int from, bool is_regular) {
+    std::string piece(kPiece, '\0');
+    LongLineWatch watch;
+    for (bool goes_on = true; goes_on;) {
+      TWIN_TRY(const std::size_t count, next(from, piece));
+      const std::string_view bytes(piece.data(), count);
+      TWIN_CHECK(keep(bytes));
+      goes_on = count > 0 && !watch.add(bytes);
+      if (!is_regular && data_.size > kLongestPipe) {
+        return named(data_.file, ErrorCode::kFile,
+                     "the program does not end: 4 GiB were read; expected an NC program");
+      }
+    }
+    data_.sha256 = hash_.finish();
+    return {};
+  }
+
+ private:
+  /// The next bytes as soon as there are any; none at the end.
+  Expected<std::size_t> next(int from, std::string& piece) {
+    for (;;) {
+      if (reading_.stop != nullptr && reading_.stop->load()) {
+        return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
+      }
+      pollfd ready{from, POLLIN, 0};
+      const int events = ::poll(&ready, 1, kLookAtStop);
+      if (events == 0 || (events < 0 && errno == EINTR)) {
+        continue;
+      }
+      const ssize_t count = ::read(from, piece.data(), piece.size());
+      if (count >= 0) {
+        return static_cast<std::size_t>(count);
+      }
+      if (errno != EINTR && errno != EAGAIN) {
+        return file_error(data_.file, "read the NC program", errno);
+      }
+    }
+  }
+
+  Expected<void> keep(std::string_view bytes) {
+    hash_.add(bytes);
+    data_.size += static_cast<std::int64_t>(bytes.size());
+    if (data_.copy.get() < 0 && data_.text.size() + bytes.size() <= ProgramText::kInMemory) {
+      data_.text.append(bytes);
+      return {};
+    }
+    if (data_.copy.get() < 0) {
+      data_.copy = Descriptor(nameless_file(reading_.folder));
+      if (data_.copy.get() < 0) {
+        return file_error(data_.file, "keep a copy of the NC program", errno);
+      }
+      if (const int code = write_all(data_.copy.get(), std::exchange(data_.text, {})); code != 0) {
+        return file_error(data_.file, "keep a copy of the NC program", code);
+      }
+    }
+    const int code = write_all(data_.copy.get(), bytes);
+    return code == 0 ? Expected<void>()
+                     : file_error(data_.file, "keep a copy of the NC program", code);
+  }
+
+  Data& data_;
+  const ProgramText::Reading& reading_;
+  Sha256 hash_;
+};
+
+}  // namespace
+
+Expected<ProgramText> ProgramText::read(const fs::path& path, const Reading& reading) {
+  auto data = std::make_shared<Data>();
+  data->file = path == "-" ? fs::path("/dev/stdin") : path;
+  // Without O_NONBLOCK the opening of a FIFO would wait for its writer, deaf to the wish to stop.
+  const Descriptor from(is_standard_input(path)
+                            ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                            : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (from.get() < 0) {
+    return file_error(path, "open the NC program", errno);
+  }
+  struct stat before {};
+  if (::fstat(from.get(), &before) != 0) {
+    return file_error(path, "read the NC program", errno);
+  }
+  if (S_ISDIR(before.st_mode)) {
+    return named(path, ErrorCode::kFile, "is a directory; expected an NC program");
+  }
+  const bool is_regular = S_ISREG(before.st_mode);
+  TWIN_CHECK(Copying(*data, reading).run(from.get(), is_regular));
+  struct stat after {};
+  if (is_regular && !is_standard_input(path)) {
+    data->state = FileState(before);
+    if (::fstat(from.get(), &after) != 0 || FileState(after) != *data->state) {
+      return named(path, ErrorCode::kFile,
+                   "the NC program changed while it was read; nothing has moved");
+    }
+  }
+  return ProgramText(std::move(data));
+}
+
+ProgramText ProgramText::from_text(std::string text, fs::path name) {
+  auto data = std::make_shared<Data>();
+  Sha256 hash;
+  hash.add(text);
+  data->sha256 = hash.finish();
+  data->size = static_cast<std::int64_t>(text.size());
+  data->text = std::move(text);
+  data->file = std::move(name);
+  return ProgramText(std::move(data));
+}
+
+const fs::path& ProgramText::file() const noexcept { return data_->file; }
+std::int64_t ProgramText::size() const noexcept { return data_->size; }
+const std::string& ProgramText::sha256() const noexcept { return data_->sha256; }
+
+Expected<std::size_t> ProgramText::copy(std::int64_t offset, std::span<char> to) const {
+  if (data_->copy.get() < 0) {
+    const std::string_view rest =
+        std::string_view(data_->text)
+            .substr(static_cast<std::size_t>(std::min(offset, data_->size)), to.size());
+    std::copy(rest.begin(), rest.end(), to.begin());
+    return rest.size();
+  }
+  std::size_t done = 0;
+  while (done < to.size()) {
+    const ssize_t count = ::pread(data_->copy.get(), to.data() + done, to.size() - done,
+                                  static_cast<off_t>(offset) + static_cast<off_t>(done));
+    if (count < 0 && errno != EINTR) {
+      return file_error(data_->file, "read on in the copy of the NC program", errno);
+    }
+    if (count == 0) {
+      break;
+    }
+    done += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  return done;
+}
+
+bool ProgramText::has_changed() const {
+  struct stat now {};
+  return data_->state &&
+         (::stat(data_->file.c_str(), &now) != 0 || FileState(now) != *data_->state);
+}
+
+}  // namespace twin::gcode
