@@ -21,7 +21,8 @@ namespace twin::feedrate {
 ///            final since      becomes final        braking to rest     limits may
 ///            the last plan    by this plan         at the horizon      still fall
 ///   emitted |---------------|--------------------|-------------------|------------|
-///           window          start of the plan                        horizon      end of window
+///           begin of        start of                                 horizon      end of
+///           the window      the plan                                              the window
 ///
 /// The parts of the planner (PlannerParts) decide what the limits are, when a plan is due, how the
 /// window is planned and which part of the plan is final. The result depends on the segments alone,
