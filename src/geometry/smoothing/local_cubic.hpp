@@ -43,8 +43,8 @@ class LocalCubic {
   double mean_square() const noexcept { return mean_square_; }
 
   /// Blossom (polar form) of the cubic at three arguments: the begin of the interval, a place
-  /// within it, and its end. For a B-spline with these three knots it is the control point between
-  /// them. With x of the place in the middle it is
+  /// within it, and its end. If these are successive knots of a B-spline that equals the cubic
+  /// there, the blossom is one of its control points. With x of the place in the middle it is
   ///   c_0 + (x / 3) c_1 - c_2 - 3 x c_3                                                        (3)
   /// since the blossoms of 1, x, x^2, x^3 at (-1, x, 1) are 1, x/3, -1/3, -x [mm].
   /// @param middle  arc length of the place in the middle [mm]
