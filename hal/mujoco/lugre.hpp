@@ -11,16 +11,16 @@ namespace twin::hal::mujoco {
 /// the model is
 ///   dz/dt = v - alpha s0 |v| z / g(v)
 ///   F = s0 z + s1 dz/dt + s2 v,
-/// F against the motion. In steady sliding z = sgn(v) g / s0 and F = sgn(v) g(v) + s2 v.
+/// where F acts against the motion. In steady sliding z = sgn(v) g / s0 and F = sgn(v) g(v) + s2 v.
 ///
 /// alpha = 1 is LuGre [Canudas de Wit 1995], which creeps under a vibrating load below breakaway.
 /// As in the elasto-plastic model [Dupont 2002], with
 ///   z_ba = elastic_share Fc / s0,   z_ss = g / s0,
-/// alpha is 0 while |z| < z_ba or while z and v differ in sign, 1 from z_ss on, and half a sine
-/// wave between: below z_ba the bristle is a spring and nothing is lost. elastic_share = 0 switches
-/// this off.
+/// alpha is 0 while |z| < z_ba or while z and v differ in sign. It is 1 from z_ss on, and rises as
+/// half a sine wave in between. So below z_ba the bristle is a spring, which loses no energy.
+/// elastic_share = 0 gives plain LuGre.
 ///
-/// Integration, exact for constant v and alpha over the step h:
+/// The integration over the step h is exact for constant v and alpha:
 ///   lambda = alpha s0 |v| / g,  E = exp(-lambda h)
 ///   z' = z E + v (1 - E) / lambda      (z + v h where lambda h < 1e-6)
 ///   F  = s0 z' + s1 (z' - z) / h + s2 v

@@ -14,46 +14,48 @@ namespace twin::hal::mujoco {
 
 class TablePhysics;
 
-/// The servo XY table between the V-REF terminals of its drives and the shafts of its encoders.
+/// Simulates the servo XY table from the V-REF terminals of its drives to the shafts of its
+/// encoders. D/A converters and counters are not a part of it.
 ///
-/// MuJoCo integrates the masses (semi-implicit Euler, no contacts, no constraints); drive and
-/// friction act on them as generalised forces, written anew before every physics step. Converters
-/// and counters are not part of it. Nothing depends on the wall clock or on other plants in the
-/// process: the same calls give the same bytes.
+/// MuJoCo integrates the motion of the masses (semi-implicit Euler, no contacts, no constraints).
+/// Drive and friction act on the masses as generalised forces, which are computed anew before every
+/// physics step. Nothing depends on the wall clock or on other plants in the process: the same
+/// calls give the same bytes.
 class TablePlant {
  public:
-  /// The table at rest in the middle of its travel, servo off, 0 V.
-  /// @param period  that advance() lets pass, > 0 [s]
-  /// @returns kMachine error for a number out of range, kModel error where the model fails
+  /// Makes a table at rest in the middle of its travel, with 0 V and servo off.
+  /// @param period  time that advance() lets pass, > 0 [s]
+  /// @returns kMachine error for a parameter out of range, kModel error for a model that fails
   static Expected<std::unique_ptr<TablePlant>> open(const TableParams& params, double period);
   ~TablePlant();
   TablePlant(const TablePlant&) = delete;
   TablePlant& operator=(const TablePlant&) = delete;
 
-  /// What the terminals of a drive get from now on. Real-time safe. @param volts V-REF [V], finite
+  /// Sets the signals at the terminals of a drive. Real-time safe. @param volts  V-REF, finite [V]
   void command(std::size_t axis, double volts, bool servo_on) noexcept;
-  /// Clears the alarm and the states of a drive, servo off. Real-time safe.
+  /// Resets a drive: no alarm, filters and integrals empty, servo off. Real-time safe.
   void reset_drive(std::size_t axis) noexcept;
-  /// Makes a drive give alarm. Real-time safe.
+  /// Makes a drive give an alarm. Real-time safe.
   void trip(std::size_t axis) noexcept;
-  /// Opens limit switches wherever the slide is, or leaves them to it again. Real-time safe.
-  void force_limits(std::size_t axis, bool positive, bool negative) noexcept;
-  /// Where the pen slide is to be [mm]. Real-time safe.
-  void set_pen_reference(double z) noexcept { pen_reference_ = z; }
-  /// A force on a slide from outside, until changed, along its positive direction [N]. Real-time
+  /// True opens a limit switch wherever the slide is; false lets the slide work it again. Real-time
   /// safe.
+  void force_limits(std::size_t axis, bool positive, bool negative) noexcept;
+  /// Sets the position that the pen slide moves to [mm]. Real-time safe.
+  void set_pen_reference(double z) noexcept { pen_reference_ = z; }
+  /// Sets an external force on a slide, positive along its positive direction, which acts until it
+  /// is changed [N]. Real-time safe.
   void set_external_force(std::size_t axis, double force) noexcept {
     external_force_[axis] = force;
   }
 
-  /// Lets one period pass. Real-time safe. False: the simulation failed and stays as it is,
-  /// last_error() says why.
+  /// Lets one period pass. Real-time safe.
+  /// @returns false if the simulation has failed; it then stays as it is, and last_error() says why
   bool advance() noexcept;
 
-  double position(std::size_t axis) const noexcept;          ///< of the slide [mm]
-  double velocity(std::size_t axis) const noexcept;          ///< of the slide [mm/s]
-  double encoder_position(std::size_t axis) const noexcept;  ///< of the shaft, as travel [mm]
-  double pen_position() const noexcept;                      ///< [mm]
+  double position(std::size_t axis) const noexcept;          ///< position of the slide [mm]
+  double velocity(std::size_t axis) const noexcept;          ///< velocity of the slide [mm/s]
+  double encoder_position(std::size_t axis) const noexcept;  ///< motor angle as travel [mm]
+  double pen_position() const noexcept;                      ///< position of the pen slide [mm]
   bool is_ready(std::size_t axis) const noexcept { return axes_[axis].drive().is_ready(); }
   bool has_alarm(std::size_t axis) const noexcept { return axes_[axis].drive().has_alarm(); }
   bool is_limit_positive(std::size_t axis) const noexcept;

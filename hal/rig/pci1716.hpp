@@ -16,10 +16,11 @@ inline constexpr std::uint16_t kZeroVolts = 0x8000;
 
 /// Puts both converters of a PCI-1716 at 0 V, then the digital outputs as given.
 ///
-/// Order of writes: 0 V code to both data registers, range word (+-10 V), 0 V codes again, digital
-/// outputs. So no write leaves a code behind that another range turns into a motion: code 0, which
-/// is 0 V in a unipolar range, is -10 V in ours. Driver, guard and signal handlers share this
-/// function: it is as safe in a signal handler as the port is, and may be called at any time.
+/// Order of writes: the code of 0 V to both data registers, the range word (+-10 V), the codes of
+/// 0 V again, and the digital outputs. The order matters because a code that means 0 V in one range
+/// means a voltage in another: code 0 is 0 V in a unipolar range and -10 V in the range used here.
+/// Driver, guard and signal handlers share this function. It may be called at any time, and in a
+/// signal handler if the functions of the port may be.
 void make_safe(io_port::IoPort& pci1716, std::uint16_t digital) noexcept;
 
 /// Advantech PCI-1716: two 16 bit D/A converters, 16 digital inputs and outputs, A/D converter.
@@ -42,7 +43,8 @@ class Pci1716 {
   /// 0 V, then drives off. Real-time safe, and safe in a signal handler where the port is.
   void make_safe() noexcept;
 
-  /// Sets a converter; what it cannot do is limited, not-a-number is 0 V. Real-time safe.
+  /// Sets a converter. A voltage out of range is clamped, and not-a-number is taken as 0 V.
+  /// Real-time safe.
   /// @param channel  0 or 1
   void set_volts(std::size_t channel, double volts) noexcept;
   /// Sets the digital outputs; writes only where they change. Real-time safe.
@@ -54,14 +56,15 @@ class Pci1716 {
 
   /// Digital inputs. Real-time safe.
   std::uint16_t digital_in() noexcept;
-  /// Converts one analogue input by software trigger, polling for at most some 100 accesses.
+  /// Converts one analogue input by software trigger, and polls for the result with at most about
+  /// 100 accesses. Real-time safe.
   /// @param channel  0 to 15
-  /// @returns [V], or nothing if the converter did not answer. Real-time safe.
+  /// @returns [V], or nothing if the converter did not answer
   std::optional<double> read_volts(int channel, InputRange range = InputRange::k10V) noexcept;
   /// Board ID switch, 0 to 15; -1 if the card does not answer. Real-time safe.
   int board_id() noexcept;
-  /// True if the card no longer answers: board ID and A/D status read all ones, which no card shows
-  /// (its FIFO would be empty and full at once). Real-time safe.
+  /// True if the card no longer answers. Board ID and A/D status then read as all ones, which no
+  /// card shows, since its FIFO would be empty and full at the same time. Real-time safe.
   bool is_gone() noexcept;
 
  private:

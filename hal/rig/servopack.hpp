@@ -6,19 +6,20 @@
 
 namespace twin::hal::rig {
 
-/// True if the signal of a digital line is given at these levels; false where it is not wired.
+/// Whether the signal of a digital line is given, as by Line::when; false if it is not wired.
+/// @param levels  levels of all lines, bit i for line i
 bool is_given(const Line& line, std::uint16_t levels) noexcept;
 
-/// These levels with the signal of a line given or not; unchanged where it is not wired.
+/// Returns the levels with the signal of a line given or not; unchanged if it is not wired.
 std::uint16_t with_signal(const Line& line, bool given, std::uint16_t levels) noexcept;
 
 /// Digital outputs with no signal given: every drive off, no alarm reset. Lines that no axis uses
 /// are low.
 std::uint16_t safe_digital(const RigSettings& settings) noexcept;
 
-/// What a drive says.
+/// The signals of a drive.
 struct DriveInputs {
-  bool ready = false;           ///< /S-RDY, and the servo is asked to be on
+  bool ready = false;           ///< /S-RDY is given, and /S-ON was asked for
   bool alarm = false;           ///< true: alarm, or a broken wire
   bool limit_positive = false;  ///< true: P-OT reached, or a broken wire
   bool limit_negative = false;  ///< true: N-OT reached, or a broken wire
@@ -26,28 +27,31 @@ struct DriveInputs {
 
 /// One Yaskawa drive (Servopack) in speed mode, behind its wires. All calls are real-time safe.
 ///
-/// The sense of a line (active high or low, normally closed) is that of its `Line`: a wire that
-/// breaks reads as the level of an open input, low, and with ALM, P-OT and N-OT given at low that
-/// is an alarm or a limit.
+/// The settings say for each line at which level its signal is given (Line). A broken wire reads as
+/// the level of an open input, which is low. ALM, P-OT and N-OT are given at low, so a broken wire
+/// reads as an alarm or a limit.
 class Servopack {
  public:
   explicit Servopack(const AxisWiring& wiring) noexcept : wiring_(wiring) {}
 
   const AxisWiring& wiring() const noexcept { return wiring_; }
 
-  /// V-REF for a drive command: trimmed against the drive's offset while the servo is on [V].
+  /// V-REF for a drive command: while the servo is on, the trim against the drive's offset is
+  /// added [V].
   double vref(double command, bool servo_on) const noexcept;
-  /// Digital outputs with servo-on and alarm reset of this drive as asked.
+  /// Returns the digital outputs with /S-ON and /ALM-RST of this drive set as asked.
   std::uint16_t with_outputs(bool servo_on, bool alarm_reset, std::uint16_t levels) const noexcept;
-  /// What the digital inputs say.
+  /// Reads the signals of this drive from the digital inputs.
   ///
-  /// A drive may give /S-RDY before /S-ON, to say that it would take it. Ready needs both here.
-  /// @param servo_on  as last asked; alone where /S-RDY is not wired
+  /// A drive may give /S-RDY before /S-ON, to say that it can be switched on. So `ready` here needs
+  /// both.
+  /// @param levels    digital inputs, bit i for line i
+  /// @param servo_on  /S-ON as last asked for; if /S-RDY is not wired, `ready` is just this
   DriveInputs decode(std::uint16_t levels, bool servo_on) const noexcept;
 
-  /// Encoder scale, signed [mm/count]. @param table  used where the setting is 0
+  /// Encoder scale, with sign [mm/count]. @param table  scale of the table, if the setting is 0
   double mm_per_count(double table) const noexcept;
-  /// V-REF scale, signed [mm/s/V]. @param table  used where the setting is 0
+  /// V-REF scale, with sign [mm/s/V]. @param table  scale of the table, if the setting is 0
   double mm_per_s_per_volt(double table) const noexcept;
 
  private:

@@ -12,38 +12,45 @@
 
 namespace twin::feedrate {
 
-/// Look-ahead: segments in, segments with feedrate out.
+/// Look-ahead: takes segments and emits them with their feedrate.
 ///
-/// It keeps a window of segments, has their feedrate planned so that the path could end at rest at
-/// the horizon, just before the window's end, and hands on the segments whose feedrate is final:
+/// The look-ahead keeps a window of segments. Their feedrate is planned as if the path ended at
+/// rest at the horizon, just before the end of the window. The end of such a plan only brakes, so
+/// only the part before that braking is final; its segments leave the window:
 ///
-///   final | start ....... window ....... commit | braking to rest at the horizon | limits open
-///         ^ end of what the last plan made final  ^ last place that the end does not slow down
+///            final since      becomes final        braking to rest     limits may
+///            the last plan    by this plan         at the horizon      still fall
+///   emitted |---------------|--------------------|-------------------|------------|
+///           begin of        start of                                 horizon      end of
+///           the window      the plan                                              the window
 ///
-/// What the limits are, when a plan is due, how the window is planned and which part of the plan is
-/// final is up to the planner's parts. The result depends on the segments alone, not on when they
-/// arrive.
+/// The parts of the planner (PlannerParts) decide what the limits are, when a plan is due, how the
+/// window is planned and which part of the plan is final. The result depends on the segments alone,
+/// not on when they arrive.
 class LookAhead {
  public:
   using Sink = std::function<void(PlannedSegment&&)>;
   using Start = PlanStart;
 
-  /// A start that is faster than the feedrate asked for comes down to it as soon as it can; the
-  /// limits of the path itself are kept all the same. The phases of the first segment begin at its
-  /// place.
-  ///
-  /// @param path            with planner = paper path.look_ahead segments, at least 2, are in the
-  ///                        window; with certified some braking distances of path
-  /// @param period          interpolation period, for the feedrates of corners and chords [s]
-  /// @param override_scale  of programmed feedrates, > 0; rapids take no more than 1 of it [-]
+  /// @param path            settings of the planner. With planner = paper the window has
+  ///                        path.look_ahead segments, at least 2; with planner = certified it is
+  ///                        some braking distances long.
+  /// @param period          interpolation period, on which the limits of corners and chords
+  ///                        depend [s]
+  /// @param sink            gets each segment once its feedrate is final
+  /// @param start           where the plan starts in the first segment, and at which feedrate. If
+  ///                        this is faster than the feedrate asked for, the motion slows down as
+  ///                        soon as it can; the limits of the path itself are kept all the same.
+  /// @param override_scale  factor > 0 on programmed feedrates; rapids use at most 1 [-]
   LookAhead(const Limits& limits, const PlanningModel& model, const PathSettings& path,
             double period, Sink sink, Start start = {}, double override_scale = 1.0);
 
+  /// Takes the next segment of the path.
   void push(path::Segment&& segment);
-  /// No more segments follow: the path ends at rest.
+  /// Says that no more segments follow: the path ends at rest, and all segments are emitted.
   void finish();
 
-  /// How often a plan could not be made as wanted.
+  /// How often no plan within all limits was found; see WindowPlanner::fallbacks().
   std::int64_t fallbacks() const noexcept { return planner_->fallbacks(); }
 
  private:

@@ -21,15 +21,15 @@ enum class Tail : std::uint8_t {
   kClosed,  ///< the path ends with the window, at rest
 };
 
-/// The segments that have not been handed on, and what is known of their feedrate. Places are
-/// measured from the start of the first segment.
+/// The segments that the look-ahead still holds, and what is known about their feedrate. Distances
+/// are measured from the start of the first segment.
 struct Window {
   std::deque<path::Segment> segments;
-  double length = 0.0;           ///< of all segments together [mm]
-  double fastest = 0.0;          ///< highest feedrate that was asked for so far [mm/s]
+  double length = 0.0;           ///< length of all segments together [mm]
+  double fastest = 0.0;          ///< highest feedrate that any segment so far asked for [mm/s]
   std::vector<LimitZone> zones;  ///< limits of the whole window, in path order
-  Anchor start;                  ///< up to this place the feedrate is final
-  std::vector<Phase> phases;     ///< final, and not yet handed on
+  Anchor start;                  ///< the feedrate is final up to this place; plans start here
+  std::vector<Phase> phases;     ///< final motion of segments that are still in the window
 };
 
 /// Where the feedrate limits inside a segment come from.
@@ -42,15 +42,16 @@ class LimitSource {
 
   /// Appends the zones of a segment.
   ///
-  /// @param s0        place of the segment's start [mm]
-  /// @param feedrate  asked for on it: its programmed feedrate, unless that is overridden [mm/s]
+  /// @param s0        distance of the segment's start [mm]
+  /// @param feedrate  feedrate asked for on the segment: the programmed one, with override [mm/s]
   virtual void append(const path::Segment& segment, double s0, double feedrate,
                       std::vector<LimitZone>& zones) = 0;
 
-  /// May make the first zone of a segment, zones[first], part of the zone before it.
+  /// Where the limits allow it, merges the first zone of a segment, zones[first], with the zone
+  /// before.
   virtual void merge(std::vector<LimitZone>& zones, std::size_t first) const = 0;
 
-  /// Acceleration and jerk that every zone leaves to the motion along the path.
+  /// Tangential acceleration and jerk that are allowed in every zone.
   virtual RampLimits least_ramp() const = 0;
 
   /// Whether a zone may allow less acceleration or jerk than the machine.
@@ -59,9 +60,12 @@ class LimitSource {
 
 /// Plans the feedrate over a window and decides which part of it is final.
 ///
-/// A plan comes to rest at the horizon. Beyond it a corner that is not known yet may still lower
-/// the limit of one that is; up to it all limits are final. The part of a plan that more segments
-/// would not change is final as well, and the next plan starts at its end.
+/// A plan comes to rest at the horizon, the place up to which all limits are final. Beyond the
+/// horizon a corner that has not come yet may still lower the limits of corners that have. The part
+/// of a plan that further segments would not change is final, and the next plan starts at its end.
+///
+///   start                                   horizon   end of the window
+///     |------ final ------|---- may change ----|--------|
 class WindowPlanner {
  public:
   /// @param corner_reach  how far back a corner may lower the limits of others [mm]
@@ -70,36 +74,42 @@ class WindowPlanner {
   WindowPlanner& operator=(const WindowPlanner&) = delete;
   virtual ~WindowPlanner() = default;
 
-  /// Whether enough of the path has come since the last plan.
+  /// Whether enough of the path has come since the last plan for the next one.
   virtual bool is_due(const Window& window) const = 0;
 
-  /// Plans the window, appends the final phases and moves its start to their end.
-  /// @returns false, with nothing done, where the window does not reach beyond its start yet
+  /// Plans the window from its start to the horizon, appends the final phases to window.phases and
+  /// moves window.start to their end.
+  /// @returns false, with nothing done, if the horizon is not beyond the start yet
   bool plan(Window& window, Tail tail);
 
-  /// Sets when the next plan is due, from what is left in the window after the last one.
+  /// Decides when the next plan is due, from what the last plan has left in the window.
   virtual void schedule(const Window& window) = 0;
 
-  /// Places are measured from a new start, that far from the old [mm].
+  /// Follows a shift of the origin of all distances.
+  /// @param distance  distance of the new origin from the old one [mm]
   virtual void forget(double distance) = 0;
 
-  /// How often a plan could not be made as wanted.
+  /// How often the planner had to do without a plan within all limits. It then followed an older
+  /// plan, raised a limit, or stopped at the end of a window that had grown too large.
   std::int64_t fallbacks() const noexcept { return fallbacks_; }
 
  protected:
-  /// @param horizon  place up to which all limits are final, and where the plan ends at rest [mm]
+  /// Does the work of plan().
+  /// @param horizon  distance up to which all limits are final; the plan ends at rest there [mm]
   virtual void advance(Window& window, double horizon, Tail tail) = 0;
 
   double corner_reach_;
   std::int64_t fallbacks_ = 0;
 };
 
-/// Raises the limits after a start that is too fast for them so far that it can come down.
-/// @returns false where that has been done already
+/// Makes a plan possible from a start that is too fast: raises the limits just after the start to
+/// the feedrate of the start, over the distance that the motion needs to slow down.
+/// @param last  distance up to which limits may be raised [mm]
+/// @returns false if there was no limit to raise
 bool raise_limits(Window& window, double last, const RampLimits& ramp);
 
-/// The parts of one planner, which belong together: what makes the path, where the limits inside
-/// its segments come from, and how a window of it is planned.
+/// Makes the three parts of one planner, which fit each other only: the builder of the path, the
+/// source of the limits inside its segments, and the planner of a window of segments.
 ///
 ///               paper                      certified
 ///   builder     path::PathBuilder          path::SmoothBuilder
@@ -117,8 +127,9 @@ class PlannerParts {
   virtual std::unique_ptr<WindowPlanner> make_window_planner() const = 0;
 };
 
-/// The one place where the two planners are told apart: the parts of settings.planner.
-/// @param period  interpolation period, for the feedrates of corners and chords [s]
+/// Returns the parts of the planner that settings.planner names. Nothing else in the program asks
+/// which planner is in use.
+/// @param period  interpolation period, on which the limits of corners and chords depend [s]
 std::unique_ptr<PlannerParts> make_planner(const Limits& limits, const PlanningModel& model,
                                            const PathSettings& settings, double period);
 

@@ -13,27 +13,29 @@ namespace twin::path {
 
 /// Joins lines, arcs and smoothed runs with continuous tangent and curvature.
 ///
-/// At a corner the path gets a bump (geometry::CornerBump) as wide as the tolerance allows, but no
-/// wider than half of the element on either side, and than kWidest. Within the bump an arc is its
-/// cubic pieces (append_arc_pieces). Beyond, lines and arcs are exact.
+/// A corner is rounded by adding a bump to the path (geometry::CornerBump). The bump is as wide as
+/// the tolerance allows, but not wider than kWidest or than half of the element on either side.
+/// Within the bump an arc is replaced by cubic pieces (append_arc_pieces). Outside, lines and arcs
+/// are exact.
 ///
-/// A corner that nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp.
+/// A corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp.
 ///
-/// Elements come in order, with their base path lengths; a run comes span by span. An element goes
-/// to the writer as soon as the corner behind it has its shape; a long run goes on the way, except
-/// for the spans that the corner at its end may change.
+/// Elements (lines, arcs, runs) come in order, with the length of the base path at their ends; a
+/// run comes span by span. An element is given to the writer as soon as the corner at its end is
+/// rounded. A long run is given earlier, apart from the spans that the corner at its end may
+/// change.
 class Joiner : public geometry::RunSink {
  public:
   explicit Joiner(SegmentWriter& writer) : writer_(writer) {}
 
-  /// Tolerance of the elements that follow [mm].
+  /// Sets the tolerance of the elements that follow [mm].
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
 
   void take_span(const geometry::SpanCubic& span, double deviation) override;
   void take_block(const Vec3& from, const Vec3& to, double begin, double end) override;
   void end_run() override;
   void take_arc(const Arc& arc, double begin);
-  /// Everything so far comes out and ends where it is, sharp.
+  /// Gives everything that is left to the writer. The path ends there, without a rounded corner.
   void finish();
 
  private:
@@ -45,9 +47,9 @@ class Joiner : public geometry::RunSink {
   enum class Kind : std::uint8_t { kNone, kLine, kArc, kRun };
   struct Element {
     Kind kind = Kind::kNone;
-    double begin = 0.0;  // base path length
-    double end = 0.0;    // of a run, of what is known
-    double from = 0.0;   // what is before has been given away
+    double begin = 0.0;  // length of the base path at its begin [mm]
+    double end = 0.0;    // the same at its end; for a run, at the end of the known part [mm]
+    double from = 0.0;   // the writer has got the part before this length [mm]
     double tolerance = 0.0;
     Line line;
     Arc arc;
@@ -70,7 +72,7 @@ class Joiner : public geometry::RunSink {
   double tolerance_ = 0.0;
   Element before_;
   Element under_way_;
-  bool is_joined_ = false;  // the corner at the begin of under_way_ has its shape
+  bool is_joined_ = false;  // the corner at the begin of under_way_ is rounded
   std::vector<geometry::SpanCubic> pieces_;
 };
 

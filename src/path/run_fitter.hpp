@@ -15,17 +15,18 @@
 
 namespace twin::path {
 
-/// Fits one run of continuous short blocks by successive curves that join with continuous tangent
-/// and curvature, or by Bezier pieces that join with continuous tangent.
+/// Fits one run of continuous short blocks by curves: NURBS that join with continuous tangent and
+/// curvature, or Bezier pieces that join with continuous tangent.
 ///
-/// A run may be longer than memory, so it is fitted in pieces of at most max_segments blocks. A
-/// piece is fitted as soon as a few points after it are known. At the joint of two pieces both have
-/// the same first and second derivative with respect to chord length: those of the interpolating
-/// curve through the points around the joint. The effect of a point on an interpolating cubic falls
-/// by a factor of about 0.27 with each point, so a handful of points decides the joint.
+/// A run may be too long for memory, so it is fitted piece by piece, with at most max_segments
+/// blocks in each. A piece is fitted as soon as a few points after it are known. At the joint of
+/// two pieces both have the same first and second derivative with respect to chord length, namely
+/// those of the interpolating curve through the points around the joint. The effect of a point on
+/// an interpolating cubic falls by a factor of about 0.27 from point to point, so a handful of
+/// points determines the joint.
 ///
-/// Where a piece leaves the chord tolerance, it ends before the block in which it deviates most,
-/// and that block stays a line.
+/// If a piece leaves the chord tolerance, it ends before the block in which it deviates most. That
+/// block stays a line.
 class RunFitter {
  public:
   using Sink = std::function<void(Segment&&)>;
@@ -36,7 +37,7 @@ class RunFitter {
 
   /// Appends a block that continues the run (or begins it).
   void push(const gcode::Block& block, std::int64_t number);
-  /// The run ends: everything left comes out.
+  /// Ends the run and gives all segments that are left to the sink.
   void finish();
 
  private:
@@ -69,7 +70,7 @@ class RunFitter {
   Sink sink_;
   geometry::Fitter fitter_;
   geometry::BezierFitter bezier_fitter_;
-  std::vector<RunBlock> blocks_;  // [0, first_) are settled and kept for the next joint only
+  std::vector<RunBlock> blocks_;  // those before first_ are fitted, kept for the next joint only
   std::vector<Vec3> points_;      // start of blocks_[0] and the end of each block
   std::size_t first_ = 0;
   geometry::EndCondition begin_;  // of the next piece

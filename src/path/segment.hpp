@@ -11,7 +11,7 @@
 
 namespace twin::path {
 
-/// Place of a path with its first two derivatives with respect to arc length.
+/// A point of a path and its first two derivatives with respect to arc length.
 struct PathPoint {
   Vec3 position = Vec3::Zero();   ///< [mm]
   Vec3 tangent = Vec3::UnitX();   ///< dC/ds, unit vector
@@ -21,7 +21,7 @@ struct PathPoint {
 /// Straight line of a given length.
 struct Line {
   Vec3 start = Vec3::Zero();       ///< [mm]
-  Vec3 direction = Vec3::UnitX();  ///< unit vector; any, where the length is 0
+  Vec3 direction = Vec3::UnitX();  ///< unit vector; any one if the length is 0
 };
 
 /// Arc or helix, exact.
@@ -35,7 +35,7 @@ struct FittedCurve {
   geometry::Curve curve;
   geometry::ArcLength arc_length;
   std::vector<geometry::CurvatureSample> curvature;  ///< ascending in s, both ends included
-  bool is_programmed = false;                        ///< it is of the program, not fitted
+  bool is_programmed = false;                        ///< true: a NURBS of the program, not fitted
 };
 
 /// Where a block of the program ends on a segment.
@@ -46,40 +46,40 @@ struct BlockMark {
   std::int64_t line = 0;   ///< its NC line
 };
 
-/// One piece of the path: line, arc or curve; or a rest (no length, std::monostate).
+/// One segment of the path: a line, an arc, a curve, or a dwell (std::monostate, length 0).
 struct Segment {
   std::variant<std::monostate, Line, Arc, FittedCurve> geometry;
-  double length = 0.0;        ///< arc length [mm]
-  double feedrate = 0.0;      ///< programmed feedrate, or the rapid's [mm/s]
-  double corner_error = 0.0;  ///< corner error allowed at its end [mm]
-  double dwell = 0.0;         ///< time at rest [s], where it is a rest
-  double deviation = 0.0;     ///< bound of its distance from the programmed path, both ways [mm]
-  bool stops_at_end = false;  ///< the feedrate is zero at its end
-  bool is_rapid = false;
-  PathPoint begin;               ///< its first place
-  PathPoint end;                 ///< its last place
-  std::vector<BlockMark> marks;  ///< the blocks it is made of, in order
+  double length = 0.0;           ///< arc length [mm]
+  double feedrate = 0.0;         ///< programmed feedrate, or the rapid's [mm/s]
+  double corner_error = 0.0;     ///< contour error that is allowed at the corner at its end [mm]
+  double dwell = 0.0;            ///< time of the dwell; 0 for other segments [s]
+  double deviation = 0.0;        ///< no point of it or of its blocks is farther from the other [mm]
+  bool stops_at_end = false;     ///< the motion is at rest at its end
+  bool is_rapid = false;         ///< made from G00
+  PathPoint begin;               ///< its first point
+  PathPoint end;                 ///< its last point
+  std::vector<BlockMark> marks;  ///< the blocks that it is made of, in order
 };
 
-/// Place at arc length s in [0, length] of a line.
+/// Point of a line at arc length s in [0, length].
 PathPoint point_at(const Line& line, double s) noexcept;
 
-/// Place at arc length s in [0, length] of an arc.
+/// Point of an arc at arc length s in [0, length].
 PathPoint point_at(const Arc& arc, double s) noexcept;
 
-/// Place at which a curve has these derivatives with respect to its parameter.
+/// Converts derivatives with respect to a curve's parameter to those with respect to arc length.
 PathPoint point_from(const geometry::Derivatives& at) noexcept;
 
-/// Measures an arc.
+/// Adds its arc length to an arc.
 Arc make_arc(const geometry::Arc& geometry) noexcept;
 
-/// Part of an arc between two of its arc lengths, exact.
+/// The exact part of an arc between the arc lengths `from` and `to` [mm].
 Arc part_of(const Arc& arc, double from, double to) noexcept;
 
-/// Fills arc length and curvature of a curve that was just fitted.
+/// Computes arc_length and curvature of a curve that was just fitted.
 void measure(FittedCurve& fitted);
 
-/// Segment of a measured curve: geometry, length and both ends.
+/// Makes a segment from a curve after measure(): geometry, length and both ends.
 Segment make_curve_segment(FittedCurve&& fitted);
 
 }  // namespace twin::path

@@ -11,15 +11,16 @@
 
 namespace twin::path {
 
-/// What a block asks of the segments it becomes, and where it ends on the base path.
+/// What a block requires of the segments that it becomes, and where it ends on the base path, the
+/// path of the blocks before smoothing.
 struct BlockDemand {
-  double end = 0.0;           ///< base path length at its end [mm]
-  double length = 0.0;        ///< as programmed [mm]
-  std::int64_t number = 0;    ///< counted from 0
+  double end = 0.0;           ///< length of the base path up to the block's end [mm]
+  double length = 0.0;        ///< programmed length of the block [mm]
+  std::int64_t number = 0;    ///< number of the block, from 0
   std::int64_t line = 0;      ///< NC line
   double feedrate = 0.0;      ///< [mm/s]
   double corner_error = 0.0;  ///< [mm]
-  double deviation = 0.0;     ///< of the base path at its end from the block's own [mm]
+  double deviation = 0.0;     ///< distance of the base path from the programmed end point [mm]
   bool is_rapid = false;
 
   bool has_same_demands(const BlockDemand& other) const noexcept {
@@ -28,29 +29,32 @@ struct BlockDemand {
   }
 };
 
-/// Makes segments of a path that arrives as cubic pieces, lines and arcs. The base path length is
-/// the parameter of all of them. A block is added before the first piece that it is part of.
+/// Makes the segments of a path that arrives as cubic pieces, lines and arcs. The parameter of all
+/// of them is the length of the base path. A block must be added before the first piece that is a
+/// part of it.
 ///
-/// Pieces that follow each other become curves of at most kMostSpans spans; a curve also ends where
-/// the demands of the blocks change. A block that lies on several segments has a mark on each of
-/// them. Where the tangent turns from one segment to the next, the path comes to rest.
+/// Successive cubic pieces become one curve of at most kMostSpans spans. A curve also ends where
+/// the requirements of the blocks change. A block that lies on several segments has a mark on each
+/// of them. If the tangent turns from one segment to the next, the path comes to rest there.
 class SegmentWriter {
  public:
   explicit SegmentWriter(Builder::Sink sink) : sink_(std::move(sink)) {}
 
   void add_block(const BlockDemand& block) { blocks_.push_back(block); }
 
-  /// The next piece.
-  /// @param deviation  bound of its distance from the programmed path, both ways [mm]
+  /// Appends a cubic piece.
+  /// @param deviation  no point of the piece or of the program is farther from the other [mm]
   void cubic(const geometry::SpanCubic& piece, double deviation);
-  /// A straight piece from base path length `begin` to `end`.
+  /// Appends a line.
+  /// @param begin, end  length of the base path at both ends of the line [mm]
   void line(const Line& line, double begin, double end);
+  /// Appends an arc; begin and end as for line().
   void arc(const Arc& arc, double begin, double end);
-  /// A segment that is complete, with marks of its own.
+  /// Appends a segment that is complete and has its own marks.
   void whole(Segment&& segment);
-  /// The path is not smooth here.
+  /// Ends the current curve, because the path is not smooth here.
   void end_curve() { flush(); }
-  /// Everything so far comes out.
+  /// Gives all segments that are left to the sink.
   void finish();
 
  private:
@@ -64,11 +68,11 @@ class SegmentWriter {
   void emit(Segment&& segment);
 
   Builder::Sink sink_;
-  geometry::SlidingVector<BlockDemand> blocks_;  // not yet over
-  BlockDemand latest_;                           // the last one that was over
+  geometry::SlidingVector<BlockDemand> blocks_;  // blocks that may lie on further pieces
+  BlockDemand latest_;                           // last block that has ended
   std::size_t at_ = 0;                           // block of the latest piece
-  std::size_t first_ = 0;                        // block whose demands the segment under way has
-  std::vector<geometry::SpanCubic> pieces_;      // of the curve under way
+  std::size_t first_ = 0;                        // block that sets the current segment's demands
+  std::vector<geometry::SpanCubic> pieces_;      // of the current curve
   double deviation_ = 0.0;
   double tail_deviation_ = 0.0;  // of the blocks at the end of the last segment
   std::optional<Segment> last_;

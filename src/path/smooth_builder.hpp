@@ -17,17 +17,17 @@ namespace twin::path {
 /// Turns blocks into a path of continuous tangent and curvature within the tolerance, with a bound
 /// of its deviation on every segment.
 ///
-/// The tolerance of a block is that of its G64 P, otherwise the corner error of the machine file;
-/// in runs it is also at most the chord error. The vertex between two G01 blocks is smooth if
-/// neither block is longer than a short block and the sagitta there (bi_chord_error) is within the
-/// tolerance, at any feedrate. The blocks between smooth vertices are a run (geometry::RunSpline).
-/// All other vertices are corners (Joiner).
+/// The tolerance of a block is that of its G64 P, or else the corner error of the machine file. In
+/// runs it is also at most the chord error. The vertex between two G01 blocks is smooth if both are
+/// short blocks and the sagitta there (bi_chord_error) is within the tolerance, whatever the
+/// feedrate. Blocks that are joined by smooth vertices form a run (geometry::RunSpline). All other
+/// vertices are corners (Joiner).
 ///
-/// A line that ends within half of kSpeck of the tolerance from where it begins is left out, and
-/// the blocks before and after it meet there. The bound of the deviation includes what that moves.
+/// A tiny line, shorter than half of kSpeck times the tolerance, is left out, and the blocks before
+/// and after it meet there. The bound of the deviation includes the error that this makes.
 ///
-/// A block of G61 stays as it is and ends at rest, and so does a block that meets it at an angle.
-/// The same holds for the NURBS of the program.
+/// A block of G61 is not changed and ends at rest; a block that meets it at an angle is treated
+/// likewise. The same holds for the NURBS of the program.
 class SmoothBuilder : public Builder {
  public:
   SmoothBuilder(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
@@ -37,22 +37,22 @@ class SmoothBuilder : public Builder {
   void finish() override;
 
  private:
-  /// A line, with the blocks behind it that are left out.
+  /// A line, and the tiny blocks after it that are left out.
   struct LineBlock {
     Vec3 start = Vec3::Zero();
-    Vec3 end = Vec3::Zero();   // its own
-    Vec3 last = Vec3::Zero();  // of what is left out behind it
-    double length = 0.0;       // start to end [mm]
-    double tolerance = 0.0;    // of G64 P, 0: the machine's own [mm]
+    Vec3 end = Vec3::Zero();   // end of the line itself [mm]
+    Vec3 last = Vec3::Zero();  // end of the last block that is left out after it [mm]
+    double length = 0.0;       // from start to end [mm]
+    double tolerance = 0.0;    // of G64 P; 0: that of the machine file [mm]
     bool can_be_short = false;
     BlockDemand demand;
     std::vector<BlockDemand> left_out;
   };
 
-  /// What comes after the latest line.
+  /// What follows the latest line.
   enum class Following : std::uint8_t {
-    kConnected,  ///< a line that begins at the end of the latest one
-    kOther,      ///< something that begins where the program is, behind what was left out
+    kConnected,  ///< a line, which then begins at the end of the latest line
+    kOther,      ///< anything else, which begins at the programmed place after the blocks left out
   };
 
   double run_tolerance(double programmed) const;
@@ -73,10 +73,10 @@ class SmoothBuilder : public Builder {
   SegmentWriter writer_;
   Joiner joiner_;
   geometry::RunSpline run_;
-  LineBlock line_;  // the latest, not pushed yet
-  LineBlock last_;  // of the run
+  LineBlock line_;  // latest line, not given to the run or to the joiner yet
+  LineBlock last_;  // last line of the current run
   bool has_line_ = false;
-  double length_ = 0.0;  // of the base path [mm]
+  double length_ = 0.0;  // length of the base path so far [mm]
   std::int64_t next_block_ = 0;
 };
 

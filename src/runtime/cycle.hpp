@@ -13,42 +13,48 @@
 
 namespace twin::runtime {
 
-/// One interpolation period of the controller: the next set point, and its exchange with the
-/// machine.
+/// The work of one interpolation period: computes the set point, closes the position loops and
+/// exchanges signals with the machine.
 ///
 ///   read()       machine.read: counts and switches of this instant
 ///   prepare()    interpolator -> set point of the period
 ///   respond()    servo -> monitors -> machine.write
 ///
-/// On the wall clock the calls come in this order, so that the counts are those of the period's
-/// begin. In lockstep prepare() comes first and exchange() does the rest, so that a simulated
-/// machine lets no time pass in a period that has no set point. The results are the same, because
-/// the set point does not depend on what is measured. No call allocates, locks, throws, prints or
-/// touches a file, but for what the interpolator's source does in prepare().
+/// On the wall clock the calls come in this order, so the counts are read right at the begin of the
+/// period. In lockstep prepare() comes first, and exchange() does the other two: if there is no set
+/// point yet, the machine is not read and no simulated time passes. Both orders give the same
+/// results, because the set point does not depend on what is measured. No call allocates, locks,
+/// throws, prints or touches a file, apart from what the interpolator's source does in prepare().
 ///
-/// The monitors watch every machine but one that follows its reference exactly. trip() is what they
-/// have found. Where it calls for an immediate reaction, the cycle writes 0 V and servo off in the
-/// same period and returns kError, and it writes nothing after that.
+/// The monitors (motion::Monitors) watch every machine that does not follow its reference exactly.
+/// trip() returns what they found first. If a trip calls for an immediate reaction, the cycle
+/// writes 0 V and servo off in the same period, returns kError, and writes nothing from then on.
 class Cycle {
  public:
-  /// @param machine   configured and active; null for a plan without a machine
+  /// @param machine   an active machine; null to compute set points without a machine
   /// @param period    interpolation period T [s]
   /// @param feedrate  largest feedrate of the machine [mm/s]
   Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
         const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
         const motion::SafetySettings& safety = {}, double feedrate = Limits{}.feedrate);
 
-  /// Fetches the inputs. Real-time safe. @param interval since the last read [s]
+  /// Reads the inputs of the machine. Real-time safe.
+  /// @param interval  time since the last read [s]
   hal::Status read(double interval) noexcept;
-  /// Fetches the next set point; on anything but kMoving the last one stands. Real-time safe.
+  /// Computes the next set point. If the result is not kMoving, the last set point stays in force.
+  /// Real-time safe.
   motion::Status prepare() noexcept;
-  /// Answers the inputs with the drive commands of the set point. Real-time safe.
+  /// Computes drive commands from the set point and the inputs, checks them and writes them to the
+  /// machine. Real-time safe.
+  /// @param sample  gets set point, measured values and drive commands of this period
   hal::Status respond(results::Sample& sample) noexcept;
-  /// The same for the last set point, at rest. Real-time safe.
+  /// Like respond(), but holds the last set point, with velocity and acceleration 0, and records
+  /// nothing. Real-time safe.
   hal::Status respond_at_rest() noexcept;
-  /// Passes over a set point whose period never began, and writes nothing. The measured values of
-  /// the sample lie between those of the period before and those just read. Real-time safe.
-  /// @param share  how far between them, 0 to 1
+  /// Records a set point whose period was missed, and writes nothing to the machine. The measured
+  /// values of the sample are interpolated between the last period and the inputs just read.
+  /// Real-time safe.
+  /// @param share  0 for the values of the last period, 1 for those just read
   void pass_over(results::Sample& sample, double share) noexcept;
 
   /// read() and respond(). Real-time safe.
@@ -63,17 +69,17 @@ class Cycle {
   bool is_ready() const noexcept { return axis_not_ready() == motion::kNoAxis; }
   /// The first axis without servo ready at the last read(), or kNoAxis.
   std::size_t axis_not_ready() const noexcept;
-  /// Counts and switches as of the last read().
+  /// Inputs of the last read().
   const hal::Inputs& inputs() const noexcept { return inputs_; }
-  /// What the counts mean [mm].
+  /// Position of X and Y by the encoder counts of the last period [mm].
   const Vec2& measured() const noexcept { return measured_; }
-  /// What the monitors found first, or what switched the machine off.
+  /// The first finding of the monitors that ends the motion; nothing as long as all is well.
   const std::optional<motion::Trip>& trip() const noexcept { return trip_; }
-  /// Time of the next sample, since the first one [s].
+  /// Time of the next sample, counted from the first one [s].
   double time() const noexcept { return static_cast<double>(periods_) * period_; }
-  /// A trip as of this period, about the whole machine or one axis. Real-time safe.
+  /// Returns the trip with time and NC line of this period filled in. Real-time safe.
   motion::Trip stamped(motion::Trip trip) const noexcept;
-  /// 0 V and servo off. Not real-time safe.
+  /// Writes 0 V and servo off. Not real-time safe.
   void switch_off() noexcept;
 
  private:

@@ -30,37 +30,38 @@ enum class MotionEnd : std::uint8_t {
   kTripped,       ///< a monitor ended it
 };
 
-/// What is known of a motion after its end.
+/// How a motion went.
 struct MotionResult {
   MotionEnd end = MotionEnd::kDone;
-  std::optional<motion::Trip> trip;  ///< what ended it, with kTripped
-  Vec2 rest_at = Vec2::Zero();       ///< measured at its end [mm]
-  std::optional<Vec2> met_at;        ///< measured, where MotionOptions::until came true [mm]
-  std::int64_t late_periods = 0;     ///< wall clock only
-  double worst_latency = 0.0;        ///< of a period's begin [s]; wall clock only
+  std::optional<motion::Trip> trip;  ///< what ended the motion, if end is kTripped
+  Vec2 rest_at = Vec2::Zero();       ///< measured at the end of the motion [mm]
+  std::optional<Vec2> met_at;        ///< measured where MotionOptions::until came true [mm]
+  std::int64_t late_periods = 0;     ///< periods that began too late; 0 in lockstep
+  double worst_latency = 0.0;        ///< latest begin of a period [s]; 0 in lockstep
 };
 
-/// What a motion is told besides its path.
+/// Options of a motion.
 struct MotionOptions {
   double period = 0.001;        ///< interpolation period T [s]
   double rest_before = 0.3;     ///< time at rest before the first set point, with a machine [s]
   double rest_after = 0.0;      ///< time at rest after the path's end, not recorded [s]
-  double ready_timeout = 3.0;   ///< within which the drives must be ready [s]
-  Limits limits;                ///< for braking
-  FeedControl* feed = nullptr;  ///< override and hold; null: a path that was braked ends there
-  Until until{};                ///< ends the motion early
+  double ready_timeout = 3.0;   ///< time within which the drives must be ready [s]
+  Limits limits;                ///< acceleration and jerk of braking
+  FeedControl* feed = nullptr;  ///< override and hold; null: braking to rest ends the motion
+  Until until{};                ///< ends the motion early; empty: never
 };
 
-/// Runs cycles from rest to rest; the body of the motion thread. At its end the machine is off, 0 V
-/// and servo off, whatever the reason.
+/// Runs one cycle after the other from rest to rest: the body of the motion thread. However the
+/// motion ends, the machine is switched off then (0 V, servo off).
 ///
 /// The path begins after rest_before, and not before both drives are ready.
 ///
 /// In lockstep the motion waits for segments and for room in the sample queue, so the result does
-/// not depend on the timing of threads. On the wall clock it waits for nothing. A planner that
-/// falls behind makes it brake on the path before the known part ends, and it goes on by another
-/// plan when the buffer has filled again. A feed hold is a part of the motion, and its periods are
-/// recorded. Late periods and a full sample queue make it brake on the path and end.
+/// not depend on the timing of threads. On the wall clock it waits for nothing. If planning falls
+/// behind, the motion brakes on the path before the planned part ends, and goes on by another plan
+/// once the buffer has filled again. A feed hold is a part of the motion, and its periods are
+/// recorded. If too many periods are late or the sample queue is full, the motion brakes on the
+/// path and ends.
 ///
 /// @param stop  set from outside (Ctrl-C): brake on the path and end
 MotionResult run_motion(Cycle& cycle, motion::Interpolator& interpolator, const PlanSupply& supply,

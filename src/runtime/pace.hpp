@@ -17,7 +17,8 @@
 
 namespace twin::runtime {
 
-/// How the motion keeps time: with the machine, with planning and with the recorder.
+/// Timing of the motion: when a period begins, and whether the motion waits for the machine, for
+/// planning and for the recorder.
 class Pace {
  public:
   Pace() = default;
@@ -34,24 +35,26 @@ class Pace {
   /// Ends a period that has no set point of the path.
   virtual hal::Status pass_idle(Cycle& cycle) noexcept = 0;
 
-  /// Whether so much is planned that the motion may start; waits for it where it may wait.
+  /// Waits until enough is planned for the motion to start, if the motion may wait.
+  /// @returns whether enough is planned
   virtual bool wait_for_segment() noexcept = 0;
-  /// Waits until the sample queue has room. @returns false where the motion must not wait
+  /// Waits until the sample queue has room, if the motion may wait.
+  /// @returns whether it has room
   virtual bool wait_for_room(SampleQueue& samples) noexcept = 0;
 
-  /// How the period began.
+  /// How late the present period began, and how many were missed before it.
   virtual WakeUp wake_up() const noexcept { return {}; }
-  /// Too many late periods in a row, or one too late.
+  /// A trip if too many periods in a row, or one by far, began too late; else nothing.
   virtual std::optional<motion::Trip> overrun() const noexcept { return std::nullopt; }
   virtual std::int64_t late_periods() const noexcept { return 0; }
-  virtual double worst_latency() const noexcept { return 0.0; }  ///< of a period's begin [s]
+  virtual double worst_latency() const noexcept { return 0.0; }  ///< latest begin of a period [s]
 };
 
 /// Simulated time: one period follows the other as fast as they can be computed. The motion waits
 /// for planning and for the recorder, so the result does not depend on the timing of threads.
 ///
-/// A period begins with its set point. The machine's time passes in exchange(), so it stands still
-/// in a period that has no set point.
+/// A period begins with the set point. The machine is read in exchange(), where its time passes. So
+/// its time stands still while there is no set point.
 class LockstepPace final : public Pace {
  public:
   /// @param stop  is set if planning fails
@@ -72,9 +75,10 @@ class LockstepPace final : public Pace {
   std::atomic<bool>& stop_;
 };
 
-/// The wall clock: one period of the cycle per period of the clock, and no waiting for anybody.
+/// The wall clock: each period of the cycle takes one period of the clock, and the motion waits for
+/// nothing else.
 ///
-/// A period begins with reading the machine, at the instant that the clock gives.
+/// A period begins when the clock says so, by reading the machine.
 class WallClockPace final : public Pace {
  public:
   struct Options {

@@ -8,7 +8,7 @@
 
 namespace twin::runtime {
 
-/// Time on which periods are paced; tests have one of their own.
+/// The clock by which periods are timed. Tests have a clock of their own.
 class Clock {
  public:
   Clock() = default;
@@ -16,9 +16,10 @@ class Clock {
   Clock& operator=(const Clock&) = delete;
   virtual ~Clock() = default;
 
-  /// [ns], never falls. Real-time safe.
+  /// Present time, which never goes back [ns]. Real-time safe.
   virtual std::int64_t now() noexcept = 0;
-  /// Returns at that instant or later; at once when it has passed. Real-time safe. @param t [ns]
+  /// Sleeps until an instant; returns at once if the instant has passed. Real-time safe.
+  /// @param t  the instant [ns]
   virtual void sleep_until(std::int64_t t) noexcept = 0;
 };
 
@@ -31,34 +32,36 @@ class MonotonicClock final : public Clock {
 
 /// How a period began.
 struct WakeUp {
-  double latency = 0.0;   ///< after its deadline [s]
-  double interval = 0.0;  ///< since the period before began [s]
-  int missed = 0;         ///< periods before it that never began; Schedule::kKept only
+  double latency = 0.0;   ///< time from its deadline to its begin [s]
+  double interval = 0.0;  ///< time since the begin of the period before [s]
+  int missed = 0;         ///< number of periods skipped before it; Schedule::kKept only
 };
 
-/// What becomes of the deadlines after a late period.
+/// When the deadlines after a late period are.
 enum class Schedule : std::uint8_t {
-  kShifted,  ///< the next is a period after this wake-up: for a machine whose time passes in read()
-  kKept,     ///< they stay where they are and some are missed: for one whose time passes by itself
+  kShifted,  ///< counted from the late wake-up, for a machine whose time passes in read()
+  kKept,     ///< as before, so some are missed; for a machine whose time passes by itself
 };
 
-/// Wakes up at the multiples of a period.
+/// Wakes the caller at the begin of each period.
 ///
-/// A wake-up at or past the next deadline is a late period. A burst of short periods never makes up
-/// for it: the schedule is shifted, or the periods in between are missed.
+/// A period is late if it begins at or after the next deadline. The pacer never makes up for it by
+/// a burst of short periods: it shifts the schedule or skips the periods in between (Schedule).
 class Pacer {
  public:
-  /// @param clock   outlives the pacer; the first deadline is one period after now
-  /// @param period  [s]
+  /// @param clock     outlives the pacer; the first deadline is one period after its present time
+  /// @param period    [s]
+  /// @param settings  when late periods are too many or too late
   Pacer(Clock& clock, double period, const RealtimeSettings& settings,
         Schedule schedule = Schedule::kShifted) noexcept;
 
   /// Sleeps until the next deadline. Real-time safe.
   WakeUp wait() noexcept;
-  /// Since the deadline of this period [s]. Real-time safe.
+  /// Time since the deadline of this period [s]. Real-time safe.
   double since_deadline() const noexcept;
 
-  /// Too many late periods in a row, or one too late, as of the last wait(). Real-time safe.
+  /// A trip if, as of the last wait(), too many periods in a row were late or one was far too late;
+  /// else nothing. Real-time safe.
   std::optional<motion::Trip> overrun() const noexcept;
 
   std::int64_t late_periods() const noexcept { return late_periods_; }

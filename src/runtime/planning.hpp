@@ -11,39 +11,40 @@
 
 namespace twin::runtime {
 
-/// What planning counts on its way.
+/// Lengths, counts and times that planning adds up.
 struct PlanFigures {
   std::int64_t blocks = 0;        ///< blocks of the program that move
   results::Running short_length;  ///< lengths of the continuous short blocks, fitted by curves [mm]
-  std::int64_t curves = 0;        ///< fitted, and NURBS of the program or parts of them
-  std::int64_t fitted_curves = 0;  ///< of them, through continuous short blocks
-  std::int64_t spans = 0;          ///< of the fitted curves
+  std::int64_t curves = 0;        ///< segments that are curves, fitted or programmed as NURBS
+  std::int64_t fitted_curves = 0;  ///< curves that were fitted to continuous short blocks
+  std::int64_t spans = 0;          ///< number of spans of the fitted curves
   std::int64_t lines = 0;
   std::int64_t arcs = 0;
   std::int64_t last_short = -1;  ///< number of the last block counted in short_length
-  double path_length = 0.0;      ///< along the segments [mm]
-  double time = 0.0;             ///< planned time [s]
-  double deviation = 0.0;        ///< largest of the segments' bounds [mm]
-  std::int64_t fallbacks = 0;    ///< plans that could not be made and followed an earlier one
+  double path_length = 0.0;      ///< length of all segments [mm]
+  double time = 0.0;             ///< planned time of motion [s]
+  double deviation = 0.0;        ///< largest path::Segment::deviation of all segments [mm]
+  std::int64_t fallbacks = 0;    ///< see feedrate::LookAhead::fallbacks()
 };
 
-/// Counts a segment that the path builder has made.
+/// Adds a segment that the path builder has made to the figures.
 ///
-/// @param short_block_length  a longer block is no short one, though a corner's curve is part of it
+/// @param short_block_length  largest length of a short block [mm]; a longer block does not count
+///                            as short, even if a rounded corner makes a part of it a curve
 void count(const path::Segment& segment, double short_block_length, PlanFigures& figures);
 
-/// The whole planning chain, text to planned segments: Reader, path::Builder, LookAhead.
+/// Plans a whole program, from its text to planned segments: Reader -> path::Builder -> LookAhead.
 ///
-/// @param sink     takes each planned segment; returns false to stop
-/// @param inspect  if given, sees each block before it is planned; an error ends planning
+/// @param sink     called with each planned segment; returns false to stop
+/// @param inspect  if given, called with each block before it is planned; its error ends planning
 Expected<PlanFigures> plan_program(
     gcode::Reader& reader, const config::MachineFile& machine,
     const std::function<bool(feedrate::PlannedSegment&&)>& sink,
     const std::function<Expected<void>(const gcode::Block&)>& inspect = {});
 
-/// The figures of a plan where the summary has them.
+/// Enters the figures of a plan into a summary.
 ///
-/// @param is_certified  the deviation is a certified one: planning.planner
+/// @param is_certified  whether planning.planner is "certified", so that the deviation is a bound
 void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified);
 
 }  // namespace twin::runtime

@@ -22,11 +22,11 @@
 
 namespace twin::runtime {
 
-/// What a run does.
+/// What is run: a program on a machine.
 struct RunTask {
   gcode::ProgramText program;
   config::MachineFile machine;
-  hal::Machine* hal = nullptr;     ///< unconfigured machine; null: plan only
+  hal::Machine* hal = nullptr;     ///< unconfigured machine; null: compute set points only
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
 };
 
@@ -37,14 +37,14 @@ struct RunOutput {
   std::string command;              ///< command line or the caller's own words, for the summary
 };
 
-/// How a run goes.
+/// How the motion is carried out.
 struct RunConduct {
-  bool is_wall_clock = false;             ///< one period of the cycle per period of the wall clock
-  std::vector<OverrideChange> overrides;  ///< of the feedrate, while it moves
-  Until until;                            ///< ends the motion early, as at the path's end
+  bool is_wall_clock = false;             ///< each period takes one period of the wall clock
+  std::vector<OverrideChange> overrides;  ///< feed override at given times of the motion
+  Until until;                            ///< ends the motion early, like the end of the path
 };
 
-/// Who takes part in a run. Null and empty: nobody.
+/// Whoever watches or operates the run. Members that are null or empty are not used.
 struct RunListeners {
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
@@ -52,38 +52,46 @@ struct RunListeners {
   OperatorPanel* panel = nullptr;           ///< for override and hold by an operator
 };
 
-/// What tests put between the parts of a run to make it go wrong. Empty functions do nothing.
+/// Functions by which tests disturb a run, for instance to delay a thread. Empty ones do nothing.
 struct TestHooks {
-  /// In the motion thread, on the wall clock, after a period has begun; gets its number from 0.
+  /// Called in the motion thread, on the wall clock, after a period has begun, with its number from
+  /// 0.
   std::function<void(std::int64_t)> before_period;
-  /// Where a segment has been planned for the motion; gets its number from 0.
+  /// Called before a segment is handed to the motion, with its number from 0.
   std::function<void(std::int64_t)> before_segment;
 };
 
-/// A run as it is asked for.
+/// Everything that describes a run.
 struct RunRequest : RunTask, RunOutput, RunConduct, RunListeners {
   TestHooks hooks;
 };
 
-/// How far a run got.
+/// What a run has recorded, and how it ended.
 struct RunResult {
   results::Summary summary;
-  /// Why the run ended early; what was recorded is kept, named as partial.
+  /// Why the run ended early. The trace until then is kept in trace.partial.csv.
   std::optional<Error> failure;
-  std::optional<motion::Trip> trip;  ///< where a monitor was the reason
-  std::optional<Vec2> met_at;        ///< measured, where `until` came true [mm]
-  Vec2 rest_at = Vec2::Zero();       ///< measured when the machine was switched off [mm]
+  std::optional<motion::Trip> trip;  ///< the monitor's finding, if a monitor ended the run
+  std::optional<Vec2> met_at;        ///< measured position where `until` came true [mm]
+  Vec2 rest_at = Vec2::Zero();       ///< measured position when the machine was switched off [mm]
 };
 
 /// Plans a program, moves the machine along it and records everything.
 ///
-/// Before anything moves, the whole program is gone through, held against the travel, and planned
-/// for the cycle time. The second pass is that of the run; its blocks go to planning and the
-/// recorder. In lockstep without overrides a program is planned once: the run follows the first
-/// plan, or, where that gets too long to be kept, the first pass goes on without planning.
-/// The motion has a thread of its own, and the caller's thread is the recorder. On the wall clock
-/// planning has a thread too; in lockstep it is done in the motion's. Whatever ends the motion, the
-/// machine is off by then; what throws in a thread, progress() included, brakes it.
+/// Before anything moves, the whole program is gone through, checked against the travel, and planned
+/// for the estimate of the cycle time. The run then goes through the program a second time and gives
+/// its blocks to planning and to the recorder. In lockstep without overrides a program is planned
+/// only once: the run follows the plan of the estimate. Where that plan gets too long to be kept,
+/// the first pass goes on without planning.
+///
+///   thread        | on the wall clock       | in lockstep
+///   --------------+-------------------------+-------------------------
+///   the caller's  | recorder                | recorder
+///   motion        | cycle                   | cycle and planning
+///   planning      | planning                |
+///
+/// However the motion ends, the machine is off afterwards. An exception in any thread, also one
+/// from progress(), brakes the machine on the path and ends the run.
 ///
 /// @returns what was recorded, or the error that kept the run from starting
 Expected<RunResult> run_program(const RunRequest& request);

@@ -22,9 +22,9 @@ using BlockSource = std::function<Expected<std::optional<gcode::Block>>()>;
 ///   program  ...........|=============|............
 ///                       ^ the slower   ^ the faster one: reads on
 ///
-/// Whoever is ahead reads the program on and leaves a copy of the blocks for the other one. So the
-/// memory used is that of the blocks between the two, and neither waits for the other. Blocks move
-/// in chunks, so that the lock is seldom needed.
+/// The thread that is ahead reads the program and keeps a copy of each block for the other thread.
+/// So only the blocks between the two are in memory, and no thread waits for the other. Blocks are
+/// handed over in chunks, so that the lock is seldom needed.
 class SharedBlocks {
  public:
   explicit SharedBlocks(gcode::Reader&& reader) : reader_(std::move(reader)) {}
@@ -32,7 +32,7 @@ class SharedBlocks {
   SharedBlocks& operator=(const SharedBlocks&) = delete;
   ~SharedBlocks() = default;
 
-  /// The two sources; each may be called by one thread at a time.
+  /// The sources for the two threads. Only one thread at a time may call each of them.
   BlockSource first() {
     return [this] { return next(0); };
   }
@@ -40,10 +40,10 @@ class SharedBlocks {
     return [this] { return next(1); };
   }
 
-  /// The first source is not used any more: nothing is kept for it.
+  /// Says that the first source is not used any more, so no block is kept for it.
   void drop_first();
 
-  /// Blocks that are kept for the slower of the two.
+  /// Number of blocks that are kept for the slower thread.
   std::size_t stored() const;
 
  private:
@@ -55,12 +55,12 @@ class SharedBlocks {
   Expected<std::optional<gcode::Block>> next(std::size_t side);
   Expected<void> fetch(std::size_t side);
 
-  std::array<Chunk, 2> chunks_;  // of each side, used by it alone
-  mutable std::mutex mutex_;     // of what follows
+  std::array<Chunk, 2> chunks_;  // one for each source, used by its thread alone
+  mutable std::mutex mutex_;     // protects the members that follow
   gcode::Reader reader_;
-  std::deque<gcode::Block> kept_;  // that the slower side has not got yet
-  std::size_t faster_ = 0;         // side that has got them
-  bool is_shared_ = true;          // both sides are in use
+  std::deque<gcode::Block> kept_;  // blocks that only the faster source has given so far
+  std::size_t faster_ = 0;         // index of the faster source
+  bool is_shared_ = true;          // both sources are in use
 };
 
 }  // namespace twin::runtime

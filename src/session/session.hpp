@@ -17,11 +17,11 @@
 #include "session/machine.hpp"
 #include "session/pictures.hpp"
 
-/// One program on one machine, from the machine file to the pictures. Command line, studies and
-/// other programs share this; nothing here prints.
+/// Runs one program on one machine, from the machine file to the pictures. The command line, the
+/// studies and other programs use it. Nothing here prints.
 namespace twin::session {
 
-/// What the clock of a run is.
+/// By which clock a run goes.
 enum class Pace {
   kOwn,        ///< simulated time, or the wall clock where the machine keeps its own time
   kWallClock,  ///< the wall clock in any case
@@ -29,28 +29,28 @@ enum class Pace {
 
 /// What is to be run.
 ///
-/// The machine is `hal`; where that is null, `make_machine` makes it; where that is empty too, the
-/// program is planned and nothing moves.
+/// The machine is `hal`. If `hal` is null, make_machine() makes the machine. If that is empty too,
+/// the program is planned and nothing moves.
 struct Request {
   std::string program;  ///< NC program: a path, or a name in nc_programs
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured; outlives the session
   MakeMachine make_machine{};      ///< called by Session::open
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
-  std::filesystem::path folder;    ///< of the results; empty: renders/NAME of the program
+  std::filesystem::path folder;    ///< folder of the results; empty: renders/NAME of the program
   Pace pace = Pace::kOwn;
-  std::vector<runtime::OverrideChange> overrides{};  ///< of the feedrate, while it moves
-  runtime::Until until{};                            ///< ends the motion early
+  std::vector<runtime::OverrideChange> overrides{};  ///< feed override at times of the motion
+  runtime::Until until{};                            ///< ends the motion early; may be empty
   std::string command{};   ///< command line or the caller's own words, for the summary
-  bool has_bound = false;  ///< the summary gets the lower bound of the time as well
+  bool has_bound = false;  ///< whether the summary gets the lower bound of the time
 };
 
-/// What accompanies a run while it is under way. All members may stay empty.
+/// Whoever watches or operates a run. All members may stay empty.
 struct Attendance {
-  const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
+  const std::atomic<bool>* stop = nullptr;  ///< the caller sets it to brake on the path and end
   runtime::OperatorPanel* panel = nullptr;  ///< for override and hold by an operator
-  std::function<void(double)> progress{};   ///< gets the done share, 0 to 1
-  std::function<void(double)> estimated{};  ///< gets the cycle time before anything moves [s]
+  std::function<void(double)> progress{};   ///< called with the share that is done, 0 to 1
+  std::function<void(double)> estimated{};  ///< called with the cycle time before the motion [s]
 };
 
 /// A program and its machine, ready to run.
@@ -73,11 +73,11 @@ class Session {
   /// Title of the pictures: "dolphin.nc, 3000 mm/min".
   std::string title() const;
 
-  /// Runs the program, bounds its time if asked for, and writes the summary. After a whole run
-  /// files of earlier runs that it does not replace are removed.
+  /// Runs the program, computes the bound of its time if asked for, and writes the summary. After a
+  /// complete run it removes files of earlier runs that the new ones do not replace.
   ///
-  /// @returns what was recorded, whose `failure` says why a run ended early; an error where it
-  /// could not be begun or its files could not be written
+  /// @returns what was recorded, with `failure` if the run ended early; or an error if the run
+  ///          could not begin or its files could not be written
   Expected<runtime::RunResult> run(const Attendance& attendance = {});
 
   /// Draws the figures of the trace that run() has left.

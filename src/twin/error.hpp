@@ -8,7 +8,7 @@
 
 namespace twin {
 
-/// What kind of thing went wrong; decides the exit status.
+/// What kind of thing went wrong. The kind decides the exit status of the program `twin`.
 enum class ErrorCode {
   kUsage,        ///< the command line or a setting is wrong: exit status 2
   kProgram,      ///< the NC program is wrong: exit status 1
@@ -18,22 +18,22 @@ enum class ErrorCode {
   kInterrupted,  ///< the user stopped the run: exit status 1
 };
 
-/// An error a user can act on: where it is, what was found, what was expected.
+/// An error that a user can act on: it says where, what was found and what was expected.
 struct Error {
   ErrorCode code = ErrorCode::kProgram;
-  std::string message;  ///< found value with unit, limit, what to do; no file name and no line
-  std::string file;     ///< file it is about, or empty
-  int line = 0;         ///< line in that file from 1, or 0
-  int column = 0;       ///< column in that line from 1, or 0
+  std::string message;  ///< value with its unit, limit, and what to do; names no file and no line
+  std::string file;     ///< file that is wrong; empty if the error is about no file
+  int line = 0;         ///< line in this file, counted from 1; 0 if not known
+  int column = 0;       ///< column in this line, counted from 1; 0 if not known
 };
 
-/// "file:line:column: message", leaving out what is not known.
+/// The error as one line of text, "square.nc:3:7: MESSAGE". Parts that are not known are left out.
 TWIN_EXPORT std::string to_string(const Error& error);
 
-/// Exit status of the process for an error: 2 for bad usage, else 1.
+/// Exit status with which a process should end after this error: 2 for kUsage, 1 for all others.
 TWIN_EXPORT int exit_status(const Error& error) noexcept;
 
-/// The exception that the functions of <twin/...> throw. Its what() is to_string(error()).
+/// The exception that the functions of <twin/...> throw. what() returns to_string(error()).
 class TWIN_EXPORT Failure : public std::runtime_error {
  public:
   explicit Failure(Error error);

@@ -11,42 +11,58 @@
 
 namespace twin {
 
-/// Reference of one interpolation period.
+/// What a servo loop follows in one interpolation period: the place, and its derivatives in time.
 struct SetPoint {
   double time = 0.0;                     ///< since the first set point [s]
   std::array<double, 3> position{};      ///< x, y, z [mm]
   std::array<double, 3> velocity{};      ///< x, y, z [mm/s]
   std::array<double, 3> acceleration{};  ///< x, y, z [mm/s^2]
-  double feedrate = 0.0;                 ///< along the path [mm/s]
-  std::int64_t segment = 0;              ///< planned segment, counted from 0
-  std::int64_t line = 0;                 ///< NC line
+  double feedrate = 0.0;                 ///< speed along the path [mm/s]
+  std::int64_t segment = 0;              ///< number of the planned segment, from 0
+  std::int64_t line = 0;                 ///< line of the NC program, from 1
 };
 
-/// Set points of a program for a loop of one's own: one a period, when it is asked for.
+/// Computes the set points of a program, one for each interpolation period, for a control loop of
+/// the caller's own. No machine moves, and no file is written.
 ///
-/// Planning happens inside next(), as far ahead as the look-ahead needs, so a call now and then
-/// takes longer than a period and allocates memory. For hard real time draw the set points ahead
-/// into a buffer. One thread at a time calls next(); the rest may be called from any.
+///     twin::Interpolator interpolator(twin::Program::from_file("square.nc"), twin::Settings());
+///     while (const auto point = interpolator.next()) {
+///       follow(point->position, point->velocity);  // [mm], [mm/s]
+///     }
+///
+/// next() plans as much of the path as the look-ahead needs. So some calls take longer than a
+/// period and allocate memory. A loop in hard real time should take its set points from a buffer
+/// that another thread fills ahead of time.
+///
+/// The travel of the machine is not checked; Program::check() does that.
+///
+/// Only one thread at a time may call next(). The other functions may be called from any thread.
 class TWIN_EXPORT Interpolator {
  public:
+  /// Opens the program and copies the settings. Nothing is planned yet.
   /// @throws Failure if the program cannot be opened
   Interpolator(const Program& program, const Settings& settings);
   Interpolator(Interpolator&&) noexcept;
   Interpolator& operator=(Interpolator&&) noexcept;
   ~Interpolator();
 
-  /// The set point of the next period; nothing after the last one, at rest at the path's end.
-  /// @throws Failure where the program is wrong; the path until there has been given out
+  /// Returns the set point of the next period. The first one is the start of the path, at rest.
+  ///
+  /// @returns nothing once the last set point, at rest at the end of the path, has been returned
+  /// @throws Failure if the program has an error. The motion brakes before the error: the set
+  ///         points returned until then lie on the path and end at rest.
   std::optional<SetPoint> next();
 
   double period() const noexcept;  ///< time from one set point to the next [s]
 
-  /// Feed override: from a place ahead the path is followed at this share of the programmed
-  /// feedrate. @param percent  0 to 200; 0 holds [%]
+  /// Sets the feed override. It takes effect a little farther along the path, where the feedrate
+  /// can be changed without a step of the acceleration.
+  /// @param percent  share of the programmed feedrate, 0 to 200; 0 acts like hold() [%]
   void set_override(double percent);
-  /// Brakes on the path to rest and stays there: next() then gives the same place each time.
+  /// Feed hold: brakes to rest on the path. From then on next() returns the place of rest, period
+  /// after period, until resume() is called.
   void hold();
-  /// Goes on after hold().
+  /// Ends the feed hold: the motion goes on from the place of rest.
   void resume();
 
  private:

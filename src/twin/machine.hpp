@@ -9,39 +9,43 @@
 #include "twin/error.hpp"
 #include "twin/export.hpp"
 
-/// The seam between controller and plant: the signals at its wires as plain structs, and a machine.
+/// The seam between controller and machine: the signals on the wires as plain structs, and the
+/// interface that every machine implements.
 namespace twin {
 
-inline constexpr std::size_t kServoAxes = 2;  ///< X and Y: volts out, encoder counts in
+/// Number of axes whose position loop the controller closes: X and Y. It writes their drive command
+/// in volts and reads their encoder counts.
+inline constexpr std::size_t kServoAxes = 2;
 enum Axis : std::size_t { kX = 0, kY = 1 };
 
-/// Controller to machine, written once a period.
+/// Signals from the controller to the machine, written once a period.
 struct Outputs {
-  std::array<double, kServoAxes> volts{};   ///< drive command V-REF [V], +-10
+  std::array<double, kServoAxes> volts{};   ///< drive command V-REF, -10 to 10 [V]
   std::array<bool, kServoAxes> servo_on{};  ///< /S-ON of each drive
-  /// Set point x, y, z [mm], for axes whose loop is closed in the machine: all of the ideal
-  /// machine, the Z pen slide of the table.
+  /// Set point x, y, z [mm]. It is for axes whose position loop is closed inside the machine: all
+  /// three axes of the ideal machine, and the pen slide (Z) of the table.
   std::array<double, 3> position_reference{};
 };
 
-/// Machine to controller, read once a period.
+/// Signals from the machine to the controller, read once a period.
 struct Inputs {
-  /// Encoders: quadrature edges since activation [counts].
+  /// Position of each encoder: quadrature edges since activate(), signed [counts].
   std::array<std::int64_t, kServoAxes> counts{};
-  std::array<bool, kServoAxes> servo_ready{};     ///< /S-RDY
-  std::array<bool, kServoAxes> alarm{};           ///< true: drive alarm
-  std::array<bool, kServoAxes> limit_positive{};  ///< true: P-OT reached
-  std::array<bool, kServoAxes> limit_negative{};  ///< true: N-OT reached
-  /// True: the encoder's index was met since the last read(); always false where it has none.
+  std::array<bool, kServoAxes> servo_ready{};     ///< /S-RDY: the drive follows its command
+  std::array<bool, kServoAxes> alarm{};           ///< true: the drive gives an alarm
+  std::array<bool, kServoAxes> limit_positive{};  ///< true: on the limit switch P-OT
+  std::array<bool, kServoAxes> limit_negative{};  ///< true: on the limit switch N-OT
+  /// True: the encoder has passed its index mark since the last read(). Always false for an encoder
+  /// without an index.
   std::array<bool, kServoAxes> index{};
 };
 
-/// What only a simulated machine knows: where the table really is.
+/// Where the table really is. Only a simulated machine knows this; a real one has its encoders.
 struct Truth {
   std::array<double, kServoAxes> table_position{};  ///< [mm]
 };
 
-/// Result of a call in the cycle.
+/// Result of read() and write(), the two calls of every period.
 enum class MachineStatus : std::uint8_t {
   kOk,
   kError,  ///< the machine is no longer under control; last_error() says why
@@ -55,28 +59,31 @@ enum class MachineStatus : std::uint8_t {
 ///   kInactive     | 0 V, servo off          | activate() -> kActive, cleanup() -> kUnconfigured
 ///   kActive       | commanded, servo on     | deactivate() -> kInactive
 ///
-/// Whatever fails, the machine is left with 0 V and servo off, and goes to kInactive.
+/// Whatever fails, the machine puts its drives at 0 V and servo off and goes to kInactive.
 enum class MachineState : std::uint8_t { kUnconfigured, kInactive, kActive };
 
-/// What a controller must know of a machine before it moves.
+/// What a controller must know about a machine before it moves.
 struct MachineInfo {
-  std::string name;             ///< "mujoco", "ideal", "rig"
-  bool simulated = true;        ///< false only where metal moves
-  bool has_truth = true;        ///< truth() means something
-  bool keeps_own_time = false;  ///< its periods pass on the wall clock, not inside read()
-  /// The position equals the reference handed to write(); measured values are those of truth()
-  /// after write().
+  std::string name;             ///< name in the summary, such as "mujoco", "ideal" or "rig"
+  bool simulated = true;        ///< false if real axes move
+  bool has_truth = true;        ///< whether truth() returns the true position
+  bool keeps_own_time = false;  ///< true: time passes on the wall clock, not inside read()
+  /// True: the machine stands exactly at the reference that was last handed to write(). Its
+  /// measured position is then truth() after write(), and the monitors do not watch it.
   bool follows_reference = false;
-  std::array<double, kServoAxes> mm_per_count{};       ///< encoder scale, signed [mm/count]
-  std::array<double, kServoAxes> mm_per_s_per_volt{};  ///< V-REF scale, signed [mm/s/V]
+  std::array<double, kServoAxes> mm_per_count{};       ///< encoder scale, with sign [mm/count]
+  std::array<double, kServoAxes> mm_per_s_per_volt{};  ///< V-REF scale, with sign [mm/s/V]
 };
 
-/// A machine behind its wires.
+/// A machine as the controller sees it through the wires: implement this to drive one of your own
+/// (docs/examples/04_own_machine.cpp).
 ///
-/// Order in a period: read(), interpolate, servo, write() last. For a simulated machine one period
-/// of time passes inside read(); for a real one it passes on the wall clock.
+///   configure, activate | read, write | read, write | ... | deactivate, cleanup
+///                         one period
 ///
-/// configure() and activate() return nothing, or why not.
+/// In each period the controller reads the inputs, computes set point and drive command, and writes
+/// the outputs. For a simulated machine one period of time passes inside read(); for a real one it
+/// passes on the wall clock. All calls come from one thread at a time.
 class TWIN_EXPORT Machine {
  public:
   Machine() = default;
@@ -86,25 +93,30 @@ class TWIN_EXPORT Machine {
 
   virtual const MachineInfo& info() const noexcept = 0;
 
-  /// Opens models or cards. Not real-time safe. @param period interpolation period [s]
+  /// Opens what the machine needs, such as a model or the I/O cards. Not real-time safe.
+  /// @param period  interpolation period, the time from one read() to the next [s]
+  /// @returns nothing if the machine is now inactive, else why it could not be configured
   [[nodiscard]] virtual std::optional<Error> configure(double period) = 0;
-  /// Switches the drives on at the present position, which becomes zero counts. Not real-time safe.
+  /// Switches the drives on at the present position, where the counts start from zero. Not
+  /// real-time safe.
+  /// @returns nothing if the machine is now active, else why it could not be activated
   [[nodiscard]] virtual std::optional<Error> activate() = 0;
 
-  /// Lets one period pass (simulated machines) and fetches the inputs of this instant. Real-time
+  /// Fetches the inputs of this instant. A simulated machine lets one period pass first. Real-time
   /// safe.
   virtual MachineStatus read(Inputs& inputs) noexcept = 0;
-  /// Hands over the outputs that hold until the next write(). Real-time safe.
+  /// Sets the outputs, which stay until the next write(). Real-time safe.
   virtual MachineStatus write(const Outputs& outputs) noexcept = 0;
-  /// True position at the instant of the last read(). Real-time safe.
+  /// True position at the instant of the last read(); if info().follows_reference is true, that of
+  /// the last write(). Real-time safe.
   virtual Truth truth() const noexcept = 0;
 
-  /// 0 V and servo off, in that order. Safe to call in every state. Not real-time safe.
+  /// Sets 0 V, then switches the servos off. May be called in every state. Not real-time safe.
   virtual void deactivate() noexcept = 0;
-  /// Releases everything configure() took. Not real-time safe.
+  /// Releases everything that configure() opened. Not real-time safe.
   virtual void cleanup() noexcept = 0;
 
-  /// Why the last call returned kError; empty when none did. Not real-time safe.
+  /// Why the last read() or write() returned kError; empty if none did. Not real-time safe.
   virtual std::string last_error() const = 0;
 };
 

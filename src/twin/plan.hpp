@@ -10,23 +10,32 @@
 
 namespace twin {
 
-/// What planning made of a program: lengths, counts and the time that the motion will take.
+/// Lengths, counts and times of a planned program. plan() makes it.
+///
+///     const twin::Plan plan = twin::plan(twin::Program::from_file("square.nc"), twin::Settings());
+///     std::printf("%.3f s for %.1f mm\n", plan.time(), plan.path_length());
+///
+/// The planner turns the blocks of the program into segments: lines, arcs and curves. One curve may
+/// take the place of many short blocks.
 class TWIN_EXPORT Plan {
  public:
   double time() const noexcept { return time_; }                ///< planned time of motion [s]
-  double path_length() const noexcept { return path_length_; }  ///< along the segments [mm]
-  std::int64_t blocks() const noexcept { return blocks_; }      ///< of the program, that move
+  double path_length() const noexcept { return path_length_; }  ///< length of all segments [mm]
+  std::int64_t blocks() const noexcept { return blocks_; }      ///< blocks of the program that move
   std::int64_t curves() const noexcept { return curves_; }      ///< segments that are curves
   std::int64_t lines() const noexcept { return lines_; }        ///< segments that are lines
   std::int64_t arcs() const noexcept { return arcs_; }          ///< segments that are arcs
   std::int64_t segments() const noexcept { return curves_ + lines_ + arcs_; }
 
-  /// Bound of the path's distance from the program, both ways [mm]; nothing where the planner
-  /// certifies none.
+  /// Upper bound of the deviation between planned and programmed path: no place of either one is
+  /// farther than this from the other [mm]. Nothing with planning.planner = paper, which gives no
+  /// such guarantee.
   std::optional<double> certified_deviation() const noexcept { return certified_deviation_; }
 
-  /// Lower bound of the time of this path: what it would take without limit of jerk [s]. Plans the
-  /// program once more.
+  /// Lower bound of the time for this path: the time-optimal motion with the same limits of
+  /// feedrate and acceleration, but without a limit of jerk [s]. Plans the program once more, and
+  /// so takes longer than plan() did.
+  /// @throws Failure if the program cannot be read again
   double bound() const;
 
  private:
@@ -45,7 +54,8 @@ class TWIN_EXPORT Plan {
   std::optional<double> certified_deviation_;
 };
 
-/// Plans a whole program. @throws Failure if the program is wrong or leaves the machine's travel
+/// Plans a whole program; nothing moves.
+/// @throws Failure if the program has an error or leaves the travel of the machine
 TWIN_EXPORT Plan plan(const Program& program, const Settings& settings);
 
 }  // namespace twin

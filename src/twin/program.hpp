@@ -11,36 +11,47 @@ namespace twin {
 
 class Settings;
 
-/// What is known of a program once it has been read.
+/// Size of a program, known once all of it has been read.
 struct ProgramFigures {
-  std::int64_t blocks = 0;          ///< blocks that move
-  double length = 0.0;              ///< of the programmed path [mm]
-  std::array<double, 3> box_min{};  ///< smallest x, y, z that it reaches [mm]
-  std::array<double, 3> box_max{};  ///< largest x, y, z that it reaches [mm]
+  std::int64_t blocks = 0;          ///< number of blocks that move
+  double length = 0.0;              ///< length of the programmed path [mm]
+  std::array<double, 3> box_min{};  ///< smallest x, y, z that the path reaches [mm]
+  std::array<double, 3> box_max{};  ///< largest x, y, z that the path reaches [mm]
 };
 
-/// An NC program: where its text is, and the feedrate it is run at.
+/// An NC program (G-code): a file or a text in memory, and optionally a feedrate of its own.
 ///
-/// A value that does not change and is cheap to copy. Thread-safe. Its text is read whenever it is
-/// checked, planned or run, block by block, so that its length does not matter; what is wrong with
-/// it is told then, as a Failure with file, line and column.
+///     const auto program = twin::Program::from_text("G21 G90\nG1 X10 Y5 F1200\nM30\n");
+///
+/// The text is not read here. It is read block by block whenever the program is checked, planned or
+/// run, so a program may be of any length. An error in the text is reported then, as a Failure with
+/// file, line and column.
+///
+/// A program does not change and is cheap to copy. All functions are thread-safe.
 class TWIN_EXPORT Program {
  public:
-  /// A program in a file. @param name  a path, or the name of a program in nc_programs
+  /// A program in a file.
+  /// @param name  path of the file, or its name if it is in the folder nc_programs
   /// @throws Failure if there is no such file
   static Program from_file(const std::string& name);
-  /// A program held in memory. @param name  what messages and summaries call it
+  /// A program held in memory.
+  /// @param text  the G-code
+  /// @param name  name of the program in messages and summaries
   static Program from_text(std::string text, std::string name = "program.nc");
 
-  /// The same program at one feedrate in place of its F words, which may then be missing.
-  /// @param feedrate  programmed feedrate, > 0 [mm/s]
+  /// Returns the same program with one feedrate in place of all F words, which may then be missing.
+  /// @param feedrate  programmed feedrate, > 0 [mm/s]; an F word is in mm/min
+  /// @throws Failure if the feedrate is not above 0
   Program with_feedrate(double feedrate) const;
 
-  /// File name, without folders.
+  /// Name of the file without its folders, "square.nc"; for a text the name given to from_text().
   std::string name() const;
 
-  /// Reads the whole program and holds it against the machine's travel; nothing is planned.
-  /// @throws Failure for the first thing that is wrong
+  /// Reads the whole program and checks that it stays within the travel of the machine. Nothing is
+  /// planned, and nothing moves.
+  /// @param settings  their [limits] have the travel
+  /// @returns number of blocks, length and bounding box
+  /// @throws Failure for the first error in the program
   ProgramFigures check(const Settings& settings) const;
 
  private:

@@ -17,25 +17,28 @@
 
 namespace twin {
 
-/// The operator's panel: feed override, feed hold and stop while a run is under way, and what
-/// the motion is doing. Every member may be called from every thread at any time; none waits.
+/// The operator's panel of a run: it takes feed override, feed hold and stop while the machine
+/// moves, and shows what the motion is doing.
+///
+/// Give its address to run() in RunOptions::panel and use it from another thread. Every function
+/// may be called from every thread at any time, and none waits.
 class TWIN_EXPORT Panel {
  public:
   /// What a motion is doing.
   enum class State : std::uint8_t {
-    kWaiting,  ///< it has not begun
-    kMoving,
-    kHolding,  ///< braking to a feed hold, or at rest in it
+    kWaiting,  ///< has not begun
+    kMoving,   ///< follows the path
+    kHolding,  ///< brakes for a feed hold, or is at rest in it
     kStarved,  ///< at rest until enough of the path is planned
-    kEnded,
+    kEnded,    ///< has come to its end, for whatever reason
   };
-  /// What the motion shows; each figure is true of one of the last few periods.
+  /// The state of the motion. Its values are from the last few periods, not all from the same one.
   struct Display {
     State state = State::kWaiting;
-    double time = 0.0;       ///< since the first set point [s]
-    double percent = 100.0;  ///< override that the feedrate is planned for [%]
-    double feedrate = 0.0;   ///< [mm/s]
-    std::int64_t line = 0;   ///< NC line
+    double time = 0.0;       ///< time since the first set point [s]
+    double percent = 100.0;  ///< feed override of the plan that is followed [%]
+    double feedrate = 0.0;   ///< speed along the path [mm/s]
+    std::int64_t line = 0;   ///< line of the NC program
   };
 
   Panel();
@@ -43,12 +46,15 @@ class TWIN_EXPORT Panel {
   Panel& operator=(const Panel&) = delete;
   ~Panel();
 
-  /// @param percent  of the programmed feedrate, 0 to 200; 0 holds [%]
+  /// Sets the feed override. It takes effect where the feedrate can be changed without a step of
+  /// the acceleration.
+  /// @param percent  share of the programmed feedrate, clamped to 0 to 200; 0 acts like hold() [%]
   void set_override(double percent) noexcept;
-  void hold() noexcept;    ///< brakes on the path to rest; the drives stay on
-  void resume() noexcept;  ///< goes on after hold()
-  void stop() noexcept;    ///< brakes on the path and ends the run, which then has a failure
-  Display display() const noexcept;
+  void hold() noexcept;    ///< feed hold: brakes to rest on the path; the drives stay on
+  void resume() noexcept;  ///< ends the feed hold
+  /// Brakes to rest on the path and ends the run. Run::failure then says kInterrupted.
+  void stop() noexcept;
+  Display display() const noexcept;  ///< what the motion is doing now
 
  private:
   friend struct Inside;
@@ -56,45 +62,53 @@ class TWIN_EXPORT Panel {
   std::unique_ptr<Data> data_;
 };
 
-/// A change of the feed override at a time of the motion.
+/// A change of the feed override at a given time of the motion.
 struct OverrideChange {
-  double time = 0.0;       ///< since the first set point [s]
-  double percent = 100.0;  ///< of the programmed feedrate, 0 to 200; 0 holds [%]
+  double time = 0.0;       ///< time since the first set point [s]
+  double percent = 100.0;  ///< share of the programmed feedrate, 0 to 200; 0 is a feed hold [%]
 };
 
-/// What belongs to a run beside program, settings and machine. Nothing of it has to be given.
+/// Options of a run. All have defaults; with these a run leaves no files and goes as fast as it can
+/// be computed.
 struct RunOptions {
-  /// They get the rows of the trace, and outlive the run.
+  /// Sinks that get the rows of the trace. They must outlive the run.
   std::vector<TraceSink*> sinks{};
-  /// Folder for the files that `twin run` leaves, trace.csv and summary.json; empty: none.
+  /// Folder for trace.csv and summary.json, the files that `twin run` writes. Empty: no files.
   std::string folder{};
-  /// One period of the controller a period of the wall clock, in place of as fast as it goes. A
-  /// machine that keeps its own time is always run like that.
+  /// True: each period of the controller takes one period of the wall clock. False: the periods
+  /// follow each other as fast as they can be computed. A machine that keeps its own time
+  /// (MachineInfo::keeps_own_time) is always run on the wall clock.
   bool is_wall_clock = false;
-  /// Feed override at times of the motion, ascending.
+  /// Changes of the feed override, in ascending order of time.
   std::vector<OverrideChange> overrides{};
-  /// Outlives the run. In simulated time what it does takes effect when the motion happens to
-  /// look; two runs are then the same only without it.
+  /// Operator's panel, or null. It must outlive the run. In simulated time the motion is not in
+  /// step with the thread that uses the panel, so two runs with the same orders may differ.
   Panel* panel = nullptr;
-  /// Gets the done share, 0 to 1, in the thread that called run().
+  /// Called in the thread that called run(), with the share that is done, 0 to 1.
   std::function<void(double)> progress{};
 };
 
 /// How a run went.
 struct Run {
-  Summary summary;               ///< of everything that was recorded
-  std::optional<Error> failure;  ///< why it ended before the end of the program
+  Summary summary;               ///< summary of everything that was recorded
+  std::optional<Error> failure;  ///< why the run ended early; nothing if it reached the end
 };
 
 /// Plans a program, moves the machine along it, and records every period.
 ///
-/// Before anything moves the whole program is read, held against the travel and planned. At the end
-/// the machine is off, whatever the reason. Runs on different machines may go on in different
-/// threads at the same time. A simulated machine in simulated time gives the same bytes each time.
+///     const auto table = twin::make_table(settings);
+///     twin::MemoryTrace trace;
+///     const twin::Run run = twin::run(program, settings, *table, {.sinks = {&trace}});
 ///
-/// @param machine  unconfigured, and left so
-/// @returns how it went, a failure on the way included
-/// @throws Failure where the run could not be begun: nothing has moved
+/// Before anything moves, the whole program is read, checked against the travel of the machine and
+/// planned. However the run ends, the drives are off afterwards. Different machines may run at the
+/// same time in different threads. A simulated machine in simulated time gives the same trace, byte
+/// for byte, each time.
+///
+/// @param machine  an unconfigured machine; the run leaves it unconfigured again
+/// @returns the summary, and the failure if something ended the run while it was under way
+/// @throws Failure if the run cannot begin, in which case nothing has moved, or if summary.json
+///         cannot be written after it
 TWIN_EXPORT Run run(const Program& program, const Settings& settings, Machine& machine,
                     const RunOptions& options = {});
 

@@ -13,32 +13,33 @@
 
 namespace twin {
 
-/// A column of a trace.
+/// A column of a trace. A trace is a table with one row for each interpolation period; manual.md
+/// lists its columns.
 struct TraceColumn {
-  /// What its numbers are.
+  /// Kind of the numbers in the column.
   enum class Kind {
-    kReal,   ///< measured or computed
-    kWhole,  ///< counted: a whole number, up to 2^53
+    kReal,   ///< real numbers, measured or computed
+    kWhole,  ///< whole numbers up to 2^53, such as counts and line numbers
   };
-  std::string name;  ///< with its unit, as in "x_cmd_mm"
+  std::string name;  ///< name with its unit, as in "x_cmd_mm"
   Kind kind = Kind::kReal;
 };
 
-/// What is known of a trace before its first row.
+/// Description of a trace, given before its first row.
 struct TraceHeader {
-  std::vector<TraceColumn> columns;
-  double period = 0.001;  ///< from one row to the next [s]
+  std::vector<TraceColumn> columns;  ///< in the order of the values in a row
+  double period = 0.001;             ///< interpolation period, the time from row to row [s]
 };
 
-/// Takes the rows of a run: one row an interpolation period, while the machine moves.
+/// Receives the rows of a run while the machine moves. Implement this to store or show them.
 ///
 ///   begin --> rows --> rows --> ... --> commit    the run reached the end of the program
 ///                                  \--> abandon   it failed or was interrupted
 ///
-/// All calls come from one thread, the one that called the run, and never from the real-time cycle.
-/// An error that a call returns, or an exception that it throws, brakes the machine on the path and
-/// ends the run; after begin() a run always ends with commit() or abandon(), also when the sink has
-/// failed.
+/// All calls come from the thread that called run(), and never from the real-time cycle, so they
+/// may allocate and write files. If a call returns an error or throws, the machine brakes on the
+/// path and the run ends. A sink whose begin() has returned nothing is always told the end of the
+/// run by commit() or abandon(), also after an error of its own.
 class TWIN_EXPORT TraceSink {
  public:
   TraceSink() = default;
@@ -46,17 +47,22 @@ class TWIN_EXPORT TraceSink {
   TraceSink& operator=(const TraceSink&) = delete;
   virtual ~TraceSink() = default;
 
-  /// A run begins. It calls this before anything moves.
+  /// Called once, before anything moves. @returns nothing, or why the sink cannot take the trace
   virtual std::optional<Error> begin(const TraceHeader& header) = 0;
-  /// Takes the next rows, one after the other in their order. @param values (rows x columns)
+  /// Takes the next rows, at least one.
+  /// @param values  (rows x columns), row after row
+  /// @returns nothing, or why the rows cannot be taken
   virtual std::optional<Error> rows(std::span<const double> values) = 0;
-  /// The trace is whole.
+  /// Called at the end of a run that reached the end of the program: the trace is complete.
+  /// @returns nothing, or why the trace cannot be finished
   virtual std::optional<Error> commit() = 0;
-  /// No more rows follow, and what there is is only a part of the trace.
+  /// Called at the end of any other run: the rows so far are only a part of the trace.
   virtual void abandon() noexcept = 0;
 };
 
-/// A trace in memory, its columns by name.
+/// Keeps a trace in memory. Its columns are found by name:
+///
+///     for (const double x : trace["x_cmd_mm"]) { ... }
 class TWIN_EXPORT MemoryTrace final : public TraceSink {
  public:
   std::optional<Error> begin(const TraceHeader& header) override;
@@ -65,10 +71,11 @@ class TWIN_EXPORT MemoryTrace final : public TraceSink {
   void abandon() noexcept override {}
 
   const TraceHeader& header() const noexcept { return header_; }
-  /// Number of rows so far.
+  /// Number of rows received so far.
   std::size_t size() const noexcept { return columns_.empty() ? 0 : columns_.front().size(); }
+  /// Whether the trace has a column of this name.
   bool has(std::string_view column) const noexcept;
-  /// All numbers of a column, such as "x_cmd_mm".
+  /// The values of a column, one for each row. They are valid until the next row comes.
   /// @throws std::out_of_range if the trace has no such column
   std::span<const double> operator[](std::string_view column) const;
   /// Whether the run reached the end of the program.
@@ -82,12 +89,13 @@ class TWIN_EXPORT MemoryTrace final : public TraceSink {
   bool is_complete_ = false;
 };
 
-/// A trace as the file FOLDER/trace.csv, byte for byte that of `twin run`.
+/// Writes a trace to the file FOLDER/trace.csv, byte for byte as `twin run` does.
 ///
-/// While the run goes on the rows are in FOLDER/trace.partial.csv; there they stay when it fails.
+/// While the run is under way the file is called trace.partial.csv. It keeps this name if the run
+/// fails.
 class TWIN_EXPORT CsvTrace final : public TraceSink {
  public:
-  /// @param folder  made when the run begins, if it is missing
+  /// @param folder  folder of the file; begin() makes it if it is missing
   explicit CsvTrace(const std::string& folder);
   ~CsvTrace() override;
 

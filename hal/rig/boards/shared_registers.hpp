@@ -14,7 +14,7 @@
 
 namespace twin::hal::rig::boards {
 
-/// What the process of the emulator and that of the controller share.
+/// The memory that the process of the emulator and that of the controller share.
 struct SharedBlock {
   std::atomic<std::uint64_t> magic{0};    ///< kSharedMagic once published
   std::atomic<std::uint32_t> version{0};  ///< kSharedVersion
@@ -42,26 +42,28 @@ enum class SharedRole : std::uint8_t {
 
 /// Registers of emulated boards in POSIX shared memory, mode 0600.
 ///
-/// The emulator holds a lock on the memory as long as it lives, and the kernel opens that lock
-/// however the emulator ends. The lock tells memory that a dead emulator left, which the next one
-/// takes over, from that of a living one.
-/// The memory stays mapped in a process that forks; a child may use it, and removes nothing.
+/// The emulator holds a lock on the memory as long as it lives, and the kernel releases the lock
+/// however the emulator ends. So a new emulator can see whether the memory belongs to a living one,
+/// or was left by a dead one and may be taken over.
+/// If a process forks, the memory stays mapped in the child, which may use it and removes nothing.
 class SharedRegisters {
  public:
-  /// Emulator: makes the memory, which nobody can attach to before publish(). kMachine error:
-  /// another emulator has it, or the system refused.
-  /// @param name "/" and letters
+  /// For the emulator: creates the memory. Nobody can attach to it before publish().
+  /// @param name  "/" followed by letters
+  /// @returns kMachine error if another emulator has the name or the system refuses
   static Expected<std::unique_ptr<SharedRegisters>> create(const std::string& name);
-  /// Takes part. kMachine error: no emulator has the name, it is dead, of another version, or has a
-  /// controller already.
+  /// For all others: attaches to the memory of an emulator.
+  /// @returns kMachine error if no emulator has the name, or if the one that has it is dead, is of
+  ///          another version, or has a controller already
   static Expected<std::unique_ptr<SharedRegisters>> attach(const std::string& name,
                                                            SharedRole role);
-  /// Emulator: cards gone, memory removed. Controller: not attached any more.
+  /// The emulator marks the cards as gone and removes the memory. A controller detaches.
   ~SharedRegisters();
   SharedRegisters(const SharedRegisters&) = delete;
   SharedRegisters& operator=(const SharedRegisters&) = delete;
 
-  /// Emulator: the registers are those of cards that are switched on; controllers may come.
+  /// For the emulator, once the registers are those of cards that are switched on: lets others
+  /// attach.
   void publish() noexcept { block_->magic.store(kSharedMagic, std::memory_order_release); }
 
   SharedBlock& block() noexcept { return *block_; }
@@ -78,7 +80,7 @@ class SharedRegisters {
   bool is_controller_ = false;
 };
 
-/// The process exists and has not ended; one that ended and was not waited for has. Not real-time
+/// Whether a process is running. One that has ended but was not waited for is not. Not real-time
 /// safe.
 bool is_running(pid_t process) noexcept;
 

@@ -11,7 +11,7 @@
 #include "feedrate/planned_segment.hpp"
 #include "feedrate/planner.hpp"
 
-/// How fast a path could be traversed at best.
+/// The shortest time in which a path could be traversed.
 namespace twin::feedrate {
 
 /// Lower bound of the time that a planned path takes: the time-optimal traversal of the same path
@@ -24,33 +24,37 @@ namespace twin::feedrate {
 ///
 /// Along the path, with q = v^2 and the tangential acceleration u = 1/2 dq/ds, all limits are
 /// linear: q <= V^2, |u| <= A and, where an axis i has a limit of its own, |T_i u + K_i q| <= A_i
-/// with T = dC/ds and K = d2C/ds2. On a grid one pass backward finds the largest controllable q of
-/// each place, one forward takes the largest that is reachable: H. Pham, Q.-C. Pham, "A new
-/// approach to time-optimal path parameterization based on reachability analysis", IEEE
-/// Transactions on Robotics, 2018. Their linear programs have two unknowns here and are solved by
-/// hand (reach.hpp).
+/// with T = dC/ds and K = d2C/ds2. On a grid, a pass backward finds for each place the largest q
+/// from which all later limits can be kept, and a pass forward follows the largest q that can be
+/// reached below it: H. Pham, Q.-C. Pham, "A new approach to time-optimal path parameterization
+/// based on reachability analysis", IEEE Transactions on Robotics, 2018. Their linear programs have
+/// two unknowns here and are solved in closed form (reach.hpp).
 ///
-/// V is the limit of the planner's own rules (FeedrateRules), the limit that the planner has for
-/// each corner, and 0 where it stops; dwells add their time.
+/// V is the smallest of three limits: that of the planner's own rules (FeedrateRules), that of the
+/// planner for each corner, and 0 where the path stops. Dwells add their time.
 ///
-/// Segments are kept until nothing that follows can change the result up to there: a pass backward
-/// from rest and one from the cap agree. The grid of each such stretch is halved until its time
-/// changes by less than 0.03 %. Without limits of axes every grid gives a lower bound, and the
-/// bounds of finer grids rise to the optimum. With them u has to be constant over a cell, which is
-/// slower than need be: there the times of finer grids fall, by half as much with each halving, and
-/// the last fall is taken off once more. Where the two passes do not agree within kMostSegments,
-/// the faster one is taken, which keeps the bound below the optimum.
+/// Segments are held until the segments that follow can no longer change their time. That is so up
+/// to a place where two passes backward from the last segment give the same q: one that ends at
+/// rest and one that ends at the cap. If they meet nowhere within kMostSegments, the faster one is
+/// used for half of the segments, which keeps the bound below the optimum.
+///
+/// The grid of each such stretch is halved until the time changes by less than 0.03 %. Without
+/// limits of axes every grid gives a lower bound, which rises to the optimum as the grid becomes
+/// finer. With limits of axes u has to be constant over a cell, which costs time. The time then
+/// falls as the grid becomes finer, by half as much with each halving, so the last fall is
+/// subtracted once more.
 class TimeBound {
  public:
-  static constexpr std::size_t kWindow = 256;         ///< segments looked at together
-  static constexpr std::size_t kMostSegments = 8192;  ///< segments kept at most
+  static constexpr std::size_t kWindow = 256;         ///< segments that are processed together
+  static constexpr std::size_t kMostSegments = 8192;  ///< segments that are held at most
 
+  /// Receives the time-optimal motion, place by place.
   /// @param s  distance along the path [mm]
-  /// @param v  largest feedrate there [mm/s]
+  /// @param v  feedrate of the time-optimal motion there [mm/s]
   using Profile = std::function<void(double s, double v)>;
 
   /// @param period   interpolation period [s]
-  /// @param profile  gets the optimum's feedrate at the places of the grid, in order
+  /// @param profile  if given, called for each place of the grid, in path order
   TimeBound(const Limits& limits, const PlanningModel& model, const PathSettings& path,
             double period, Profile profile = {});
 
@@ -58,11 +62,11 @@ class TimeBound {
   void add(const feedrate::PlannedSegment& planned);
 
   /// Ends the path, at rest.
-  /// @returns lower bound of the time [s]
+  /// @returns lower bound of the time of all segments [s]
   double finish();
 
  private:
-  /// A segment whose time may still depend on what follows.
+  /// A segment whose time may still depend on the segments that follow.
   struct OpenSegment {
     path::Segment segment;    // its geometry
     double end_cap = kNoCap;  // largest q at its end
@@ -71,8 +75,9 @@ class TimeBound {
   /// The grid over the open segments and the passes on it.
   struct Pass {
     std::vector<Cell> cells;
-    std::vector<std::size_t> first;  // cell of each segment, and one past the last
-    std::vector<double> node;        // largest q of each place; after the pass, controllable
+    std::vector<std::size_t> first;  // first cell of each segment, then the number of cells
+    std::vector<double> node;        // largest q at each place; after the pass backward, that from
+                                     // which later limits can be kept
   };
 
   void release(Tail tail);
@@ -86,10 +91,10 @@ class TimeBound {
   feedrate::FeedrateRules rules_;
   Profile profile_;
   std::deque<OpenSegment> open_;
-  std::size_t next_look_ = kWindow;  // segments at which the next stretch is looked for
-  double start_ = 0.0;               // q at the begin of the first segment
-  double time_ = 0.0;                // of what is released [s]
-  double s_ = 0.0;                   // length of what is released [mm]
+  std::size_t next_look_ = kWindow;  // number of open segments at which release() is tried again
+  double start_ = 0.0;               // q at the start of the first open segment
+  double time_ = 0.0;                // time of the segments released so far [s]
+  double s_ = 0.0;                   // length of the segments released so far [mm]
 };
 
 }  // namespace twin::feedrate

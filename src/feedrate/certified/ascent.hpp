@@ -10,7 +10,7 @@
 
 namespace twin::feedrate {
 
-/// Sense in which an ascent goes along the path.
+/// Direction in which an ascent goes along the path.
 enum class Sense : std::int8_t { kForward = 1, kBackward = -1 };
 
 /// The fastest rise of the feedrate from an anchor under limits that grow along the way.
@@ -21,49 +21,55 @@ enum class Sense : std::int8_t { kForward = 1, kBackward = -1 };
 ///        __|-/'|     -J so that the corner of a step is just touched, there +J again:
 ///      -'                a > 0 at each step
 ///
-/// The limits are a staircase that never falls: at each place the largest limit between the anchor
-/// and the place, less what `lower` took off. The acceleration rises with J as long as it may,
-/// stays at A, and falls with -J.
+/// The limit of the ascent at a place is the largest zone limit between the anchor and that place.
+/// So the limits form a staircase that never falls. lower() can take a part of it down. The
+/// acceleration rises with jerk +J, stays at A, and falls with jerk -J.
 ///
-/// If the jerk is -J from now on, the acceleration ends at 0 with the feedrate p. The acceleration
-/// may rise as long as this way out would keep the feedrate under every step. That is safe, for -J
-/// to p and p from then on is a motion that keeps all limits. And it is the fastest rise: no other
-/// motion is ahead of it in feedrate at the first place where the two differ.
+/// With jerk -J from now on, the acceleration would reach 0 at the feedrate p. The acceleration may
+/// rise as long as this way out keeps the feedrate under every step. This rule is safe, because
+/// jerk -J up to p and then the constant feedrate p is a motion that keeps all limits. It also
+/// gives the fastest rise: at the first place where any other motion differs, the other one is
+/// slower.
 ///
-/// p never falls along the way (dp/dt = a (1 + j / J) >= 0). So for every feedrate between that of
-/// the anchor and the last limit there is one place where the ascent has to be left to end at it.
+/// p never falls along the way, since dp/dt = a (1 + j / J) >= 0. So for every feedrate between
+/// that of the anchor and the highest limit there is exactly one place where jerk -J has to begin
+/// for the ascent to end at this feedrate.
 ///
-/// The ascent is found event by event, as far as it is asked for. A descent to an anchor is the
-/// ascent from it, backward in time and path.
+/// The phases are computed one by one with extend(), only as far as they are needed. A descent to
+/// an anchor is an ascent from the anchor, backward in time and along the path.
 class Ascent {
  public:
-  /// @param zones    cover the way from the anchor on, in path order
-  /// @param first    the zone on the anchor's side; a backward ascent goes from it to zone 0
-  /// @param ceiling  no zone has a higher limit [mm/s]
+  /// Begins an ascent, with no phase yet.
+  /// @param zones    limits along the way from the anchor on, in path order
+  /// @param first    index of the zone next to the anchor; a backward ascent goes from it to zone 0
+  /// @param ceiling  highest limit of all zones [mm/s]
   void start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor, Sense sense,
              const RampLimits& ramp, double ceiling);
 
-  /// Goes on to the next event; does nothing once it is complete.
+  /// Computes the next phase or phases; does nothing once the ascent is complete.
   void extend();
 
-  /// Clamps the feedrate to a limit [mm/s] up to the distance x [mm].
+  /// Lowers the limits up to a distance. Phases that no longer keep them are dropped.
+  /// @param x      distance from the anchor [mm]
+  /// @param limit  [mm/s]
   void lower(double x, double limit);
 
-  /// Its phases so far; their s is the distance x.
+  /// The phases computed so far; their s is the distance x from the anchor.
   const std::vector<Phase>& phases() const noexcept { return phases_; }
   /// Whether the highest limit is reached.
   bool is_complete() const noexcept { return is_complete_; }
-  /// The highest feedrate at which it can be left so far: p at the last phase's end [mm/s].
+  /// Highest feedrate at which the ascent can be left so far: p at the end of the last phase
+  /// [mm/s].
   double top() const noexcept;
-  /// Distance of the last phase's end [mm].
+  /// Distance of the end of the last phase from the anchor [mm].
   double reached() const noexcept { return at_.s; }
 
   /// Where -J has to begin for the ascent to end at a given feedrate.
   struct Exit {
-    std::size_t phase;  ///< index of the phase; the number of phases after the last one
-    double time;        ///< into that phase [s]
-    PathMotion at;      ///< motion there
-    double distance;    ///< where the feedrate is reached, with a = 0 [mm]
+    std::size_t phase;  ///< index of the phase; equal to the number of phases if after the last one
+    double time;        ///< time into that phase [s]
+    PathMotion at;      ///< motion where -J begins
+    double distance;    ///< distance at which the feedrate is reached, with a = 0 [mm]
   };
   /// @param v  from the anchor's feedrate to top() [mm/s]
   Exit exit_at(double v) const noexcept;

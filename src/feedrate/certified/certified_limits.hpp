@@ -10,20 +10,21 @@
 
 namespace twin::feedrate {
 
-/// The feedrate limits inside segments with planning.planner = certified. They hold between the
-/// places where the curvature is known, not only at them.
+/// The feedrate limits inside segments with planning.planner = certified. The limits hold at every
+/// place of a segment, not only where its curvature was sampled.
 ///
 /// In a zone the limit is the least of
 ///   the feedrate asked for,
-///   the limit of the rule (FeedrateRules), and with it the normal acceleration kappa v^2 <= A_max,
+///   the limit of the machine file's rule (FeedrateRules), with kappa v^2 <= A_max,
 ///   the feedrate at which the chord of a period keeps the chord tolerance (chord_error_feedrate),
 ///   the limits of each axis (axis_limits.hpp), where they are set.
 ///
-/// A brief bend is a rounded corner: it may err by the corner error. Only curvature that lasts is
-/// held to the circular error. A bend of turn phi and curvature kappa is brief if the tangents at
-/// its ends meet in a point that is near it:
+/// The servo model allows two contour errors: the circular error where the path is curved for long,
+/// and the larger corner error at a rounded corner, called a brief bend here. A bend that turns by
+/// phi at curvature kappa is brief if the tangents at its ends meet no farther from the bend than
+/// the corner error:
 ///   (1 / cos(phi / 2) - 1) / kappa <= corner error.
-/// Bends are told apart where the curvature falls to half of its peak.
+/// One bend ends and the next begins where the curvature has fallen to half of its peak.
 ///
 /// With limits of single axes, a brief bend becomes one zone at its lowest feedrate. Inside the
 /// bend the axes leave little acceleration and jerk for the motion along the path. Passing it at
@@ -39,11 +40,12 @@ class CertifiedLimits final : public LimitSource {
   CertifiedLimits(const Limits& limits, const PlanningModel& model, const PathSettings& path,
                   double period);
 
-  /// Appends the zones of a segment that begins at s0.
-  /// @param feedrate  asked for on it [mm/s]
+  /// Appends the zones of a segment.
+  /// @param s0        distance of the segment's start along the path [mm]
+  /// @param feedrate  feedrate asked for on the segment [mm/s]
   void append(const path::Segment& segment, double s0, double feedrate,
               std::vector<LimitZone>& zones) override;
-  /// Makes the zone part of the one before it where both have the same limits.
+  /// Merges zones[first] with the zone before it if both have the same limits.
   void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
   RampLimits least_ramp() const override;
   bool has_zone_ramps() const override { return has_axis_limits_; }
@@ -52,9 +54,9 @@ class CertifiedLimits final : public LimitSource {
   struct Interval {
     double begin;  // [mm]
     double end;
-    double curvature;  // largest in it [1/mm]
-    bool is_brief = false;
-    bool is_held = false;  // passed at one feedrate with the interval before it
+    double curvature;       // largest curvature in the interval [1/mm]
+    bool is_brief = false;  // part of a brief bend
+    bool is_held = false;   // has one feedrate limit together with the interval before it
   };
 
   double limit_at(const Interval& interval, double feedrate, On what) const;
@@ -73,7 +75,7 @@ class CertifiedLimits final : public LimitSource {
   double period_;
   double corner_error_;
   bool has_axis_limits_;
-  std::vector<Interval> intervals_;  // of the curve at hand
+  std::vector<Interval> intervals_;  // of the curve that is being processed
 };
 
 }  // namespace twin::feedrate

@@ -23,33 +23,35 @@ namespace twin::feedrate {
 ///             \.__/      \.___/      \.____/
 ///                anchor     anchor      anchor
 ///
-/// The part of the path between two anchors is a leg.
+/// An anchor is a place that is passed at a given feedrate without acceleration. The part of the
+/// path between two anchors is a leg. A summit is the motion along a leg: an ascent from one anchor
+/// that meets a descent to the other.
 ///   1. Take one summit from start to end.
 ///   2. Find, of all zones in which it is too fast, the one with the lowest limit.
-///   3. If both sides have room to come to that limit without acceleration, the zone is a valley.
-///      Anchors are put where it begins and where it ends, and the new legs are planned in the same
-///      way. If not, the zone lies on the way up of one side or on the way down of the other. That
-///      ascent is then clamped to the zone's limit up to the zone's far end, which it passes with
-///      acceleration. If the zone lies on neither, its limit caps the whole leg.
-/// Zones with low limits come first and each step lowers the feedrate everywhere, so a zone that
-/// was kept stays kept. An anchor is no faster than the limits of zones that come later, so it can
-/// always be reached. From rest there is always a plan.
+///   3. If the motion can reach the limit of that zone without acceleration from both sides, the
+///      zone is a valley. Put anchors at its begin and at its end, and plan the new legs in the
+///      same way. If not, the zone lies on the ascent or on the descent. Clamp that one to the
+///      limit of the zone up to the far end of the zone, which it passes with acceleration. If the
+///      zone lies on neither, its limit caps the whole leg.
+/// Zones with low limits come first, and each step lowers the feedrate everywhere. So a zone whose
+/// limit is kept once stays so. Zones that are treated later have higher limits than every anchor,
+/// so anchors can always be reached, and from rest there is always a plan.
 class Glide {
  public:
   /// One summit of the result.
   struct Part {
-    std::size_t first;    ///< its first phase
-    std::size_t descent;  ///< first phase of its descent
+    std::size_t first;    ///< index of its first phase in phases()
+    std::size_t descent;  ///< index of the first phase of its descent
   };
 
   /// Plans from start to end over zones that cover [start.s, end.s] in ascending order.
   ///
-  /// @param ramp  of the machine; zones may allow less
-  /// @returns false if the start is too fast for what follows; the result then means nothing
+  /// @param ramp  limits of the machine; zones may allow less acceleration and jerk
+  /// @returns false if the start is too fast for the limits after it; the result is then undefined
   bool plan(std::span<const LimitZone> zones, const Anchor& start, const Anchor& end,
             const RampLimits& ramp);
 
-  /// Result, in path order.
+  /// The planned motion in path order, and the summits that it consists of.
   const std::vector<Phase>& phases() const noexcept { return phases_; }
   const std::vector<Part>& parts() const noexcept { return parts_; }
 
@@ -57,20 +59,20 @@ class Glide {
   struct Leg {
     Anchor a;
     Anchor b;
-    Ascent* up;  // from a; null where the feedrate is held from a to b
-    Ascent* down;
+    Ascent* up;         // from a; null where the feedrate is constant from a to b
+    Ascent* down;       // backward from b; null as above
     std::size_t first;  // zones [first, last) lie between a and b
     std::size_t last;
     RampLimits ramp;
     double cap = std::numeric_limits<double>::infinity();
   };
-  /// The summit of the leg at hand.
+  /// The summit of the leg that is being planned.
   struct Climb {
     std::vector<Phase> phases;
     std::size_t descent = 0;  // first phase of the descent
     double turn = 0.0;        // place where the descent begins [mm]
     double peak = 0.0;        // highest feedrate [mm/s]
-    bool is_joined = false;  // else the start is too fast, and this is the descent to the end alone
+    bool is_joined = false;   // false: the start is too fast, and only the descent is there
   };
   struct Violation {
     std::size_t zone;

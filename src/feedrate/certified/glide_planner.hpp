@@ -8,19 +8,20 @@
 
 namespace twin::feedrate {
 
-/// Plans a window as a Glide. Final is the plan up to the last place without acceleration that the
-/// end of the window does not slow down.
+/// Plans a window with Glide. The plan is final up to the last place without acceleration at which
+/// the end of the window does not slow it down yet.
 ///
-/// Every summit but the last ends at an anchor at its own limit, so its places are final, and from
-/// each of them that has no acceleration the next plan can do as this one did. The way up of the
-/// last summit is final as far as a descent to any lower limit still has room before the window's
-/// end, since the segments to come may ask for it. If a plan fails all the same, the last one is
-/// followed up to its next place without acceleration: at worst it leads to rest.
+/// Every summit but the last one ends at an anchor whose feedrate is the limit there, so segments
+/// that follow cannot change it. The ascent of the last summit is final up to the place from which
+/// the motion can still slow down to any lower limit before the end of the window, since the
+/// segments to come may have such a limit. The next plan starts at a place without acceleration, so
+/// it can at least repeat this plan. If it fails all the same, this plan is followed to its next
+/// place without acceleration, which is at worst the place of rest at its end.
 ///
-/// A plan is due when some braking distances of the path have come, in however many segments.
+/// A plan is due when some braking distances of path have come, in however many segments.
 class GlidePlanner final : public WindowPlanner {
  public:
-  /// @param look_ahead  fewest segments between two plans, where their number makes one due
+  /// @param look_ahead  fewest segments between two plans that are due by the number of segments
   GlidePlanner(const RampLimits& ramp, double corner_reach, std::size_t look_ahead)
       : WindowPlanner(corner_reach), ramp_(ramp), look_ahead_(look_ahead) {}
 
@@ -29,17 +30,17 @@ class GlidePlanner final : public WindowPlanner {
   void forget(double distance) override;
 
  private:
-  /// The next plan is due when the window has reached one of these.
+  /// The next plan is due when the window reaches one of these sizes.
   struct Due {
     double length = 0.0;  // [mm]
     std::size_t segments = 0;
     std::size_t zones = 1;
   };
 
-  /// Place of the plan: so far into one of its phases.
+  /// A place of the plan.
   struct Cut {
-    std::size_t phase;
-    double time;  // of it [s]
+    std::size_t phase;  // index of the phase
+    double time;        // time since the begin of the phase [s]
   };
 
   void advance(Window& window, double horizon, Tail tail) override;

@@ -13,50 +13,59 @@ namespace twin::feedrate {
 /// Corner feedrate of the servo model: V = Kp/(1 - Kf) eps_max / cos(theta / 2).
 ///   [WY09, Eq. 16]
 ///
-/// @param turn  change of direction pi - theta, 0 <= turn <= pi [rad]
-/// @returns [mm/s]; infinity for a straight passage
+/// theta is the angle between the two segments, pi where they are in line.
+///
+/// @param turn          change of direction pi - theta, 0 <= turn <= pi [rad]
+/// @param corner_error  contour error eps_max that is allowed at the corner [mm]
+/// @returns [mm/s]; infinity where the direction does not change
 double corner_model_feedrate(double turn, double corner_error, const PlanningModel& model) noexcept;
 
-/// Feedrate at which the velocity vector changes by A T within the period that holds the corner.
+/// Feedrate at which the velocity vector changes by A T within the period that contains the corner.
 ///
-/// The corner changes it by 2 v sin(turn / 2), the bend beside it, of curvature kappa, by up to
-/// kappa v^2 T:
+/// The corner changes the velocity vector by 2 v sin(turn / 2). A bend of curvature kappa beside
+/// the corner changes it by up to kappa v^2 T more. So v is the positive root of
 ///   kappa T v^2 + 2 sin(turn / 2) v = A T.
 ///
-/// @param turn       change of direction at the corner [rad]
-/// @param curvature  larger curvature of the path on either side [1/mm]
-/// @param period     interpolation period T [s]
+/// @param turn          change of direction at the corner [rad]
+/// @param curvature     curvature kappa, the larger one of both sides of the corner [1/mm]
+/// @param acceleration  A [mm/s^2]
+/// @param period        interpolation period T [s]
+/// @returns [mm/s]
 double corner_acceleration_feedrate(double turn, double curvature, double acceleration,
                                     double period) noexcept;
 
-/// Feedrate at which a corner between two set points does not look like jerk.
+/// Feedrate up to which a corner between two set points is not mistaken for jerk.
 ///
-/// The chord across the corner is shorter than the way by up to v T turn^2 / 8, depending on where
-/// in the period the corner falls. A single corner can be told from a change of feedrate; one of
-/// several in a few periods, or one beside a bend, cannot. For those the third difference of the
-/// set points that the corner itself makes, up to four times that over T^3, has to stay small:
+/// The chord between the set points before and after a corner is shorter than the path by up to
+/// d = v T turn^2 / 8, depending on where in the period the corner falls. Whoever looks at the set
+/// points alone can recognise a single corner. He cannot if several corners fall into a few periods
+/// or if a bend lies beside the corner: then d appears in the third difference of the set points as
+/// a jerk of up to 4 d / T^3, which has to stay small:
 ///   v turn^2 / (2 T^2) <= kRipple J,   with kRipple = 0.1.
 ///
-/// @param jerk  J_max [mm/s^3]
-/// @returns [mm/s]; infinity for no turn
+/// @param turn    change of direction at the corner [rad]
+/// @param jerk    J_max [mm/s^3]
+/// @param period  interpolation period T [s]
+/// @returns [mm/s]; infinity where turn is 0
 double corner_ripple_feedrate(double turn, double jerk, double period) noexcept;
 
-/// A corner that turns by more than this stands out of any bend, even where the two set points
-/// beside it share its turn [rad]. A larger angle slows sharp corners beside bends for nothing; a
-/// smaller one lets corners pass that the set points show as jerk.
+/// A corner that turns by more than this can be recognised beside any bend, even if its turn is
+/// spread over two set points [rad]. A larger angle slows down sharp corners beside bends for
+/// nothing; a smaller one leaves corners at full feedrate that the set points show as jerk.
 inline constexpr double kSharpTurn = 1.4;
 
-/// Periods around a corner in which another turn hides it: the three that a third difference of set
-/// points spans, and half of one for where in its period the corner falls. Twice as many would slow
-/// corners that no difference mixes up, and keep more of the path open.
+/// A turn within so many periods of a corner hides the corner. A third difference of set points
+/// spans three periods, and half a period is added because the corner may be anywhere within its
+/// own. Twice as many would slow down corners that no difference contains together, and would keep
+/// more of the path from being final.
 inline constexpr double kHidingPeriods = 3.5;
 
-/// Another turn hides a corner if it is at least this share of the corner's own. Twice as much lets
-/// more corners pass as jerk, half as much slows more of them.
+/// Another turn hides a corner if its angle is at least this share of the corner's own [-]. Twice
+/// as much leaves more corners that look like jerk; half as much slows down more corners.
 inline constexpr double kHidingShare = 0.125;
 
-/// A corner may lower the limits of those before it up to this distance [mm].
-/// @param feedrate  the largest one that the machine accepts [mm/s]
+/// Distance over which a corner may lower the limits of the corners before it [mm].
+/// @param feedrate  largest feedrate of the machine [mm/s]
 /// @param period    interpolation period [s]
 constexpr double corner_reach(double feedrate, double period) noexcept {
   return kHidingPeriods * feedrate * period;
@@ -69,23 +78,25 @@ class JunctionLimits {
   /// @param period  interpolation period [s]
   JunctionLimits(const Limits& limits, const PlanningModel& model, double period);
 
-  /// Appends the limit of the place between two segments, if it has one, and lowers those of the
-  /// corners just before it.
+  /// Appends the limit of the junction between two segments, if there is one, and lowers the limits
+  /// of corners just before the junction that are hidden by it.
   ///
-  /// @param s      the place [mm]
-  /// @param zones  all zones before it, measured from the same start
+  /// @param s      distance of the junction along the path [mm]
+  /// @param zones  all zones before the junction, with distances from the same origin
   void append(const path::Segment& before, const path::Segment& after, double s,
               std::vector<LimitZone>& zones);
 
-  /// Says that the first zones are gone and that places are measured from a new start.
-  /// @param distance  of the new start from the old [mm]
+  /// Follows a shift of the origin: the caller has removed the first zones, and from now on
+  /// measures distances from a later place of the path.
+  /// @param distance  distance of the new origin from the old one [mm]
+  /// @param zones     number of zones that were removed
   void forget(double distance, std::size_t zones);
 
  private:
   struct Turn {
-    double s;          // place of the corner [mm]
-    double angle;      // [rad]
-    std::size_t zone;  // its limit
+    double s;          // distance of the corner along the path [mm]
+    double angle;      // change of direction [rad]
+    std::size_t zone;  // index of the zone that has the corner's limit
   };
 
   void limit_cluster(double turn, double s, std::vector<LimitZone>& zones);

@@ -9,7 +9,7 @@
 
 namespace twin::feedrate {
 
-/// Stretch of the path with one feedrate limit; begin == end is a single place, such as a corner.
+/// A part of the path with one feedrate limit. A single place such as a corner has begin == end.
 struct LimitZone {
   double begin = 0.0;                                             ///< distance along the path [mm]
   double end = 0.0;                                               ///< >= begin [mm]
@@ -18,36 +18,36 @@ struct LimitZone {
   double jerk = std::numeric_limits<double>::infinity();          ///< tangential [mm/s^3]
 };
 
-/// Appends the zones of one segment in a row. Neighbours whose limits differ by less than 1 %
-/// become one zone, with the lowest limits of all of them.
+/// Appends the zones of one segment, one after the other. Neighbours whose limits differ by less
+/// than 1 % become one zone, which has the lowest limit of all of them.
 class ZoneRow {
  public:
-  /// @param zones  get the zones; those that are there already stay as they are
+  /// @param zones  the list to append to; its present zones are not changed
   explicit ZoneRow(std::vector<LimitZone>& zones) : zones_(zones), first_(zones.size()) {}
 
-  /// Appends a zone that begins where the last one ends, or widens that one.
+  /// Appends a zone that begins where the last one ends, or merges it with the last one.
   void append(const LimitZone& zone);
 
   bool is_empty() const noexcept { return zones_.size() == first_; }
   LimitZone& last() noexcept { return zones_.back(); }
 
-  /// Lowers the limit of the last zone, and of what it is made of [mm/s].
+  /// Lowers the limit of the last zone. @param limit  [mm/s]
   void lower_last(double limit) noexcept;
 
  private:
   std::vector<LimitZone>& zones_;
   std::size_t first_;
-  double highest_ = 0.0;  // limit of the zones that became the last one [mm/s]
+  double highest_ = 0.0;  // highest limit among the zones that were merged into the last one [mm/s]
 };
 
-/// Appends the feedrate limits inside one segment that begins at s0, at the samples of its
-/// curvature: so a curve is slow where it bends, not over its whole length.
+/// Appends the feedrate limits inside one segment. A curve gets a limit at each sample of its
+/// curvature, so it is slow where it bends, not over its whole length.
 ///
-/// A line has one zone, an arc one, a curve as many as its curvature needs (ZoneRow). An arc that
-/// is not in the XY plane has several as well where the rule depends on the heading.
+/// A line and an arc have one zone each, a curve as many as its curvature needs (ZoneRow). If the
+/// rule depends on the heading, an arc that is not in the XY plane has several zones, too.
 ///
-/// @param s0        place of the segment's start [mm]
-/// @param feedrate  asked for on it, its programmed feedrate unless that is overridden [mm/s]
+/// @param s0        distance of the segment's start along the path [mm]
+/// @param feedrate  feedrate asked for on the segment: the programmed one, with override [mm/s]
 void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
                            const FeedrateRules& rules, std::vector<LimitZone>& zones);
 

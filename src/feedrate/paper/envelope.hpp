@@ -19,35 +19,34 @@ namespace twin::feedrate {
 ///        /     \________/        \______/       \_/     \.
 ///       start anchor  anchor     anchor        anchor    end
 ///
-/// Where the limit is lowest, the feedrate should just touch it with no acceleration: an anchor is
-/// put there. The part of the path between two anchors is a leg.
+/// An anchor is a place that is passed at a given feedrate without acceleration. Anchors are put
+/// where the limit is lowest, so that the feedrate just touches the limit. The part of the path
+/// between two anchors is a leg. A hump is the fastest motion along a leg: up, constant, down.
 ///   1. Take one hump from start to end under the largest limit there.
 ///   2. Find, of all zones in which it is too fast, the one with the lowest limit.
-///   3. Put an anchor where the hump enters that zone too fast and one where it leaves it too fast,
-///      and plan the new legs in the same way. If the hump is too fast only inside the zone, or if
-///      such an anchor cannot be reached from both ends without acceleration, lower the cap of the
-///      hump instead.
-/// A hump is the fastest motion between its anchors. Zones with low limits come first, and every
-/// new anchor lowers the feedrate everywhere, so a zone that was kept stays kept.
+///   3. If the hump is too fast at the begin or at the end of that zone, put an anchor there, and
+///      plan the new legs in the same way. If the hump is too fast only inside the zone, or if such
+///      an anchor cannot be reached from both ends of the leg, lower the cap of the hump instead.
+/// Zones with low limits come first, and every new anchor lowers the feedrate everywhere. So a zone
+/// whose limit is kept once stays so.
 ///
-/// The last holds where a ramp to a lower feedrate is slower everywhere than a ramp to a higher
-/// one. The ramps of s_curve are not like that: their jerk is lower for a larger change. A zone
-/// that was kept may then have to be lowered below an anchor that stands already and cannot be
-/// reached any more. In that case the limit of that anchor is lowered to what can be reached, and
-/// planning starts anew.
+/// This last argument needs a profile whose ramp to a lower feedrate is slower everywhere than its
+/// ramp to a higher one. The profile s_curve does not have this property, because it uses less jerk
+/// for a larger change. An existing anchor may then be too fast to be reached. In that case the
+/// limit of the anchor is lowered to what can be reached, and planning starts anew.
 ///
-/// The method has a limit: a falling or rising staircase of limits is taken one step at a time
-/// wherever the steps bind, with a = 0 at each. That is feasible, but slower than gliding along it.
+/// The method has a weakness: it takes a staircase of limits one step at a time, with a = 0 at each
+/// step. That keeps all limits, but is slower than one ramp along the whole staircase (see Glide).
 class Envelope {
  public:
   explicit Envelope(const RampLimits& limits) : limits_(limits) {}
 
   /// Plans from start to end over zones that cover [start.s, end.s] in ascending order.
   ///
-  /// @returns false if the start is too fast for what follows; humps() then means nothing.
+  /// @returns false if the start is too fast for the limits after it; humps() is then undefined
   bool plan(std::span<const LimitZone> zones, const Anchor& start, const Anchor& end);
 
-  /// Result, in path order; the end of one is the start of the next.
+  /// The planned humps in path order. Each one begins where the one before ends.
   const std::vector<Hump>& humps() const noexcept { return humps_; }
 
  private:
@@ -55,7 +54,7 @@ class Envelope {
 
   struct LegEnd {
     Anchor anchor;
-    std::size_t zone = kNone;  // whose limit the anchor keeps; none at the ends of the plan
+    std::size_t zone = kNone;  // zone that the anchor was put for; kNone at the ends of the plan
   };
 
   struct Leg {
@@ -63,10 +62,10 @@ class Envelope {
     LegEnd b;
     std::size_t first;  // zones [first, last) lie between a and b
     std::size_t last;
-    double cap;  // largest feedrate allowed on the leg besides its zones [mm/s]
+    double cap;  // largest feedrate on the leg, in addition to the limits of its zones [mm/s]
   };
 
-  /// A zone in which a hump is too fast, and on which part of the path it is.
+  /// A zone in which a hump is too fast, and the part of the path on which it is.
   struct Violation {
     std::size_t zone;
     Interval fast;
@@ -81,8 +80,8 @@ class Envelope {
   Outcome plan_legs(const Anchor& start, const Anchor& end);
   Outcome plan_leg(const Leg& leg);
   std::optional<Violation> find_violation(const Leg& leg, const Hump& hump) const;
-  /// Whether the leg was split at the zone; if an anchor there could not be reached nothing is
-  /// done.
+  /// Splits the leg by anchors at the zone.
+  /// @returns false, with nothing done, if such an anchor cannot be reached
   bool split(const Leg& leg, const Violation& violation);
   /// Lowers the limit of the faster anchor of a leg that passes a zone too fast.
   Outcome lower_anchor(const Leg& leg, const LimitZone& zone);

@@ -10,7 +10,7 @@ namespace twin::feedrate {
 struct Anchor {
   double s = 0.0;            ///< distance along the path [mm]
   double v = 0.0;            ///< feedrate [mm/s]
-  bool is_at_limit = false;  ///< v is the limit of the place, not what its neighbours leave of it
+  bool is_at_limit = false;  ///< v is the limit of the place itself, not reduced by its neighbours
 };
 
 /// Stretch of time with constant jerk: s(t) = s + v t + a t^2/2 + j t^3/6 for 0 <= t <= duration.
@@ -35,15 +35,15 @@ inline PathMotion motion_at(const Phase& phase, double t) noexcept {
           phase.v + t * (phase.a + t * phase.j / 2.0), phase.a + t * phase.j};
 }
 
-/// Time into a phase, in [0, duration], at which it reaches the distance s; feedrate must not be
-/// negative in it.
+/// Time since the begin of a phase, in [0, duration], at which it reaches the distance s [s]. The
+/// feedrate must not be negative in the phase.
 double time_at(const Phase& phase, double s) noexcept;
 
-/// The phase less its first part of time t.
+/// What is left of a phase after the time t [s].
 Phase remainder_after(const Phase& phase, double t) noexcept;
 
-/// The quickest way to rest from a feedrate v and an acceleration a: jerk down, hold the
-/// deceleration, jerk back.
+/// The quickest motion to rest from a feedrate v and an acceleration a, in three phases: build up
+/// the deceleration, hold it, and reduce it to zero.
 ///
 /// With a_p = min(A, sqrt(J v + a^2 / 2)) the phases are -J from a to -a_p, none at -a_p, +J from
 /// -a_p to 0. No motion within A and J has less feedrate at any place, so braking keeps every limit
@@ -54,7 +54,7 @@ struct Brake {
   double duration = 0.0;  ///< [s]
 };
 
-/// The brake from a motion on.
+/// Computes the brake that begins with a given motion.
 /// @note Real-time safe.
 Brake make_brake(const PathMotion& from, const RampLimits& limits) noexcept;
 

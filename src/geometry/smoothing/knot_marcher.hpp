@@ -8,45 +8,48 @@
 
 namespace twin::geometry {
 
-/// A span of this length is accepted however far it deviates [mm], so that halving comes to an end.
-/// Twice the length saves one halving, and the polygon of a run has details of that size only where
-/// its blocks are specks.
+/// Shortest span of a spline [mm]. A span of this length is accepted however far it deviates, so
+/// that halving comes to an end. Twice the length saves one halving. Only a run whose blocks are
+/// about as short as this has details of that size.
 inline constexpr double kShortestSpan = 1e-4;
 
-/// What is known of a run of short blocks.
+/// The part of a run of short blocks that is known so far.
 struct KnownRun {
-  Stretch stretch;         ///< the blocks that are there and do not change any more
-  bool is_closed = false;  ///< the run ends where the stretch ends; otherwise more blocks follow
+  Stretch stretch;         ///< blocks that have come and do not change any more
+  bool is_closed = false;  ///< true: the run ends where the stretch ends; false: more blocks follow
 };
 
-/// Places the knots t_0, t_1, ... of a run's spline one after the other.
+/// Places the knots t_0, t_1, ... of a run's spline one after the other, each as far from the one
+/// before as the shape of the run permits.
 ///
-/// The next span has the largest length H = H_max 2^-k for which the cubic that is nearest to the
-/// polygon on [t - H, t + 2 H] (LocalCubic)
-///  - leaves no more than kShare of the tolerance (root mean square), and
+/// The next span begins at the knot t. Its length is the largest H = H_max 2^-k for which the cubic
+/// that fits the polygon best on [t - H, t + 2 H] (LocalCubic)
+///  - is off the polygon by no more than kShare of the tolerance (root mean square), and
 ///  - turns by no more than kMostTurn over H.
-/// H is at most twice the length of the span before. A span that is longer than the one before is
-/// tried where the residual says that it is likely to fit, and at every fourth span.
+/// H is at most twice the length of the span before. Each trial costs a fit. So a longer span than
+/// the one before is tried only where the residual of that one was small, and at every fourth span.
 ///
 ///        t-H    t     t+H    t+2H       The window reaches one span back and one ahead, so spans
-///    -----|-----|------|------|---      become short before a tight place, and long behind it.
+///    -----|-----|------|------|---      become short before a tight bend, and long after it.
 ///         '---- window -------'
 ///
-/// Beyond both ends of the run the knots are those inside, reflected about the end.
+/// Beyond each end of the run the knots go on as a mirror image of those inside.
 class KnotMarcher {
  public:
-  /// Forgets all knots and shortenings.
+  /// Removes all knots and undoes shorten().
   /// @param tolerance  bound of the deviation of the spline [mm]
   void start(double tolerance) noexcept;
 
-  /// Begins a row of knots with t_0 = s, in a block of the polygon.
+  /// Begins a row of knots with t_0 = s.
+  /// @param s      arc length [mm]
+  /// @param block  index of the block that contains s
   void begin_at(double s, std::size_t block);
 
-  /// Whether enough of the run is known to place the next knot. Nothing depends on how much more is
-  /// known.
+  /// Whether enough of the run is known to place the next knot. The knot does not depend on how
+  /// much more is known.
   bool can_march(const KnownRun& run) const noexcept;
 
-  /// Places the next knot. Near the known end of a run the spans divide the rest evenly.
+  /// Places the next knot. Near the end of a closed run the last spans divide the rest evenly.
   void march(const KnownRun& run);
 
   /// Whether the knots have reached the end of the run.
@@ -54,31 +57,31 @@ class KnotMarcher {
     return run.is_closed && knots_.back().s >= run.stretch.end;
   }
 
-  /// Makes the spans around this one at most half as long when they are marched again.
+  /// Limits the spans around a span to half its length, for when their knots are placed again.
   void shorten(std::size_t span) noexcept;
-  /// Arc length up to which spans are shortened [mm].
+  /// Arc length up to which shorten() limits spans [mm].
   double shortened_until() const noexcept { return cap_end_; }
 
-  /// t_j of a knot that is placed and not forgotten [mm].
+  /// t_j of a knot in memory [mm].
   double at(std::size_t j) const noexcept { return knots_[j].s; }
-  /// t_j, also of the reflected knots beyond the ends of the run [mm].
+  /// t_j, also for a j beyond the ends of the run, where the knots are mirrored [mm].
   double reflected(std::ptrdiff_t j) const noexcept;
-  /// The block that holds knot j.
+  /// Index of the block that contains knot j.
   std::size_t block(std::size_t j) const noexcept { return knots_[j].block; }
   /// Index of the latest knot.
   std::size_t last() const noexcept { return knots_.end_index() - 1; }
-  /// Index of the first knot that is not forgotten.
+  /// Index of the first knot in memory.
   std::size_t first() const noexcept { return knots_.begin_index(); }
 
-  /// Forgets the knots after `last`.
+  /// Removes the knots after index `last`.
   void truncate(std::size_t last);
-  /// Forgets the knots before index j.
+  /// Removes the knots before index j, which are not needed any more.
   void drop_before(std::size_t j) { knots_.drop_before(j); }
 
  private:
   struct Knot {
-    double s;           // t_j
-    std::size_t block;  // that holds it
+    double s;           // t_j [mm]
+    std::size_t block;  // index of the block that contains it
   };
 
   double longest_span() const noexcept;
@@ -88,10 +91,10 @@ class KnotMarcher {
 
   SlidingVector<Knot> knots_;
   double tolerance_ = 0.0;
-  double last_width_ = 0.0;                               // of the latest span; 0: there is none
-  int spans_to_grow_ = 0;                                 // before a longer one is tried
-  double cap_ = std::numeric_limits<double>::infinity();  // of spans that begin before cap_end_
-  double cap_end_ = 0.0;
+  double last_width_ = 0.0;                               // length of the latest span, or 0 [mm]
+  int spans_to_grow_ = 0;                                 // spans until a longer one is tried
+  double cap_ = std::numeric_limits<double>::infinity();  // longest span before cap_end_ [mm]
+  double cap_end_ = 0.0;                                  // arc length [mm]
 };
 
 }  // namespace twin::geometry

@@ -8,46 +8,50 @@
 
 namespace twin::geometry {
 
-/// Part of a polygon that is looked at: blocks `first` to `last` of it, from s_begin to s_end.
+/// A part of a polygon: its blocks `first` to `last`.
 struct Stretch {
   const Polygon* polygon = nullptr;
-  std::size_t first = 0;
-  std::size_t last = 0;
-  double begin = 0.0;  ///< arc length of vertex `first` [mm]
-  double end = 0.0;    ///< arc length of vertex `last` + 1 [mm]
+  std::size_t first = 0;  ///< index of the first block
+  std::size_t last = 0;   ///< index of the last block, which belongs to the stretch
+  double begin = 0.0;     ///< arc length of vertex `first` [mm]
+  double end = 0.0;       ///< arc length of vertex `last` + 1 [mm]
 };
 
-/// The cubic nearest to the smooth path A(s) of a polygon over an interval of its arc length, in
-/// the mean square.
+/// The cubic that fits the smooth path A(s) of a polygon best over an interval of arc length: the
+/// mean square of their distance is smallest.
 ///
 /// With x = -1..1 across the interval and Legendre's polynomials L_k,
 ///   p(x) = sum_k c_k L_k(x),   c_k = (2 k + 1) / 2 integral of A(s(x)) L_k(x) dx,   k = 0..3.  (1)
-/// The integrals are sums over the blocks. The part of a block that lies around x = a with half
-/// width d has A = m + d' y + b (1/3 - y^2), y = -1..1, and
+/// Each integral is a sum over the blocks. On the part of a block with its middle at x = a and half
+/// width d, A(s) is the parabola A = m + d' y + b (1/3 - y^2), y = -1..1, whose moments are
 ///   1/(2d) integral of A x^k dx = m                                                       | k = 0
 ///                                 a m + (d/3) d'                                          | k = 1
 ///                                 (a^2 + d^2/3) m + (2 a d/3) d' - (4/45) d^2 b           | k = 2
 ///                                 (a^3 + a d^2) m + (a^2 d + d^3/5) d' - (4/15) a d^2 b   | k = 3,
-/// so (1) is exact, and a block costs a fixed amount. Beyond an end of the polygon its point
-/// reflection about that end takes its place, A(s_end + x) = 2 A_end - A(s_end - x).
+/// so (1) is exact, and each block costs the same time. Beyond an end of the stretch, A(s) goes on
+/// as its own point reflection about that end, A(s_end + x) = 2 A_end - A(s_end - x).
 ///
 /// @note Real-time safe.
 class LocalCubic {
  public:
-  /// @param block  a block near the beginning of the interval
+  /// @param stretch     the part of the polygon that is known
+  /// @param block       index of a block near the begin of the interval, where the search starts
+  /// @param begin, end  the interval of arc length [mm]
   LocalCubic(const Stretch& stretch, std::size_t block, double begin, double end) noexcept;
 
-  /// Mean square distance of cubic and path over the interval [mm^2].
+  /// Mean square of the distance between cubic and path over the interval [mm^2].
   double mean_square() const noexcept { return mean_square_; }
 
-  /// Blossom of the cubic at the interval's begin, a place in it and its end: with x of the middle
-  /// place,
+  /// Blossom (polar form) of the cubic at three arguments: the begin of the interval, a place
+  /// within it, and its end. If these are successive knots of a B-spline that equals the cubic
+  /// there, the blossom is one of its control points. With x of the place in the middle it is
   ///   c_0 + (x / 3) c_1 - c_2 - 3 x c_3                                                        (3)
   /// since the blossoms of 1, x, x^2, x^3 at (-1, x, 1) are 1, x/3, -1/3, -x [mm].
+  /// @param middle  arc length of the place in the middle [mm]
   Vec3 blossom(double middle) const noexcept;
 
-  /// Angle by which the cubic turns over the interval, nearly: |C''| in the middle times the length
-  /// of the interval, |C''| = 3 |c_2| / half width^2 [rad].
+  /// Approximate angle by which the cubic turns over the interval: |C''| in the middle times the
+  /// length of the interval, |C''| = 3 |c_2| / half width^2 [rad].
   double turn() const noexcept { return 6.0 * moment_[2].norm() / half_; }
 
   /// Number of blocks in the interval, whole or in part.
@@ -61,7 +65,7 @@ class LocalCubic {
 
   double centre_;
   double half_;
-  double inverse_;  // of half_
+  double inverse_;  // 1 / half_
   Vec3 origin_;
   std::array<Vec3, 4> moment_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   double square_ = 0.0;
@@ -69,10 +73,10 @@ class LocalCubic {
   int blocks_ = 0;
 };
 
-/// The blossom of LocalCubic, Eqs. 1 and 3 there, as one integral. For a function f it is
-///   integral of f(s) K(s) ds / half width,
+/// The kernel K by which LocalCubic::blossom() is a single integral over the fitted function f:
+///   blossom = integral of f(s) K(s) ds / half width,
 ///   K = 1/2 + (x_m / 2) x - (5/2) L_2(x) - (21/2) x_m L_3(x),
-/// with x_m the x of the middle place.
+/// where x_m is the x of the place in the middle. It follows from Eqs. 1 and 3 of LocalCubic.
 class BlossomKernel {
  public:
   BlossomKernel(double begin, double middle, double end) noexcept
@@ -80,7 +84,7 @@ class BlossomKernel {
         inverse_(2.0 / (end - begin)),
         middle_((middle - centre_) * inverse_) {}
 
-  /// K over the half width, at s [1/mm].
+  /// K divided by the half width, at arc length s [1/mm].
   double at(double s) const noexcept {
     const double x = (s - centre_) * inverse_;
     const double l2 = 1.5 * x * x - 0.5;

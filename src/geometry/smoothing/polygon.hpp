@@ -5,39 +5,39 @@
 
 namespace twin::geometry {
 
-/// The programmed points of a run of short blocks, with the arc length of the polygon through them,
-/// and the smooth path that they suggest.
+/// The programmed points of a run of short blocks: the polygon through them, its arc length s, and
+/// an estimate A(s) of the smooth path that the blocks approximate.
 ///
 /// Block i goes straight from vertex i to vertex i + 1,
 ///   V(s) = V_i + (s - s_i) e_i,   s_i <= s <= s_{i+1},   s_{i+1} = s_i + L_i.
-/// Programs cut rounds into chords. The round is estimated from the curvature at the vertices and
-/// the sagitta of the blocks,
+/// A CAM system has made these blocks as chords of a curve. The curve is estimated from the
+/// curvature k_i at the vertices and the sagitta b_i of the blocks,
 ///   k_i = 2 (e_i - e_{i-1}) / (L_{i-1} + L_i),   b_i = -(L_i^2 / 8) minmod(k_i, k_{i+1}),
-/// where minmod is the shorter of two vectors that point to one side, and zero for any others:
+/// where minmod is the shorter of two vectors that point to the same side, and zero for any others:
 ///   A(s) = A_i + f (A_{i+1} - A_i) + 4 f (1 - f) b_i,   f = (s - s_i) / L_i,
 ///   A_i = V_i + (L_{i-1} L_i / 16) k_i.
 /// A(s) lies half a sagitta inside the vertices and half a sagitta outside the chords. At the ends
-/// of a run k = 0. The numbers of block i do not change any more once block i + 1 is there, or once
-/// it is known that none follows.
+/// of a run k = 0. The values of block i are final once block i + 1 has been appended, or once it
+/// is known that no block follows.
 class Polygon {
  public:
   struct Vertex {
     Vec3 at;         ///< V_i [mm]
-    Vec3 direction;  ///< e_i, of the block that begins here; unit vector, zero at the last vertex
+    Vec3 direction;  ///< e_i, unit vector along the block that begins here; 0 at the last vertex
     Vec3 aim;        ///< A_i [mm]
-    Vec3 bend;       ///< k_i [1/mm]
-    Vec3 bulge;      ///< b_i, of the block that begins here [mm]
+    Vec3 bend;       ///< curvature vector k_i [1/mm]
+    Vec3 bulge;      ///< sagitta b_i of the block that begins here [mm]
     double s;        ///< arc length s_i [mm]
-    double turn;     ///< angle between the blocks that meet here, nearly; 0 at both ends [rad]
+    double turn;     ///< approximate angle between the blocks that meet here; 0 at the ends [rad]
   };
 
-  /// Begins at a point with a given arc length.
+  /// Begins a polygon at a point. @param s  arc length there [mm]
   void start(const Vec3& at, double s);
-  /// Appends a block; it must not end where it begins.
+  /// Appends the block from the last vertex to this point, which must be another one [mm].
   void push(const Vec3& end);
-  /// The turn at vertex i is none of the run's: it is an end of it.
+  /// Sets the turn at vertex i to 0, because the run has been cut there.
   void forget_turn(std::size_t i) noexcept;
-  /// Forgets the vertices before index i.
+  /// Removes the vertices before index i, which are not needed any more.
   void drop_before(std::size_t i) { vertices_.drop_before(i); }
 
   const Vertex& operator[](std::size_t i) const noexcept { return vertices_[i]; }
@@ -47,8 +47,8 @@ class Polygon {
   /// A(s) on block i [mm].
   Vec3 aim(std::size_t i, double s) const noexcept;
 
-  /// Block that holds s, looked for from block i on, either way, among blocks `lowest` to
-  /// `highest`.
+  /// Index of the block that contains the arc length s. The search starts at block i, goes in
+  /// either direction, and stays within the blocks `lowest` to `highest`.
   std::size_t block_at(double s, std::size_t i, std::size_t lowest,
                        std::size_t highest) const noexcept;
 

@@ -21,12 +21,12 @@ namespace twin::geometry {
 ///              A(s)          as A(s) lets them                           |
 ///                                  ^------- shorter spans, or a corner --' no
 ///
-/// A span whose deviation exceeds its limit is marched again with shorter spans, up to kAttempts
-/// times. After that the sharpest vertex of the block that deviates most becomes a corner, which
-/// ends the run; another run begins there.
+/// If the deviation of a span exceeds its limit, the knots around the span are placed again with
+/// shorter spans, up to kAttempts times. If that does not help, the sharper vertex of the block
+/// that deviates most becomes a corner. It ends the run, and another run begins there.
 ///
-/// A span leaves for the sink once enough spans after it are checked. It never changes afterwards,
-/// and nothing depends on when points arrive.
+/// A span is given to the sink once enough spans after it are checked; it never changes afterwards.
+/// The result does not depend on when points arrive.
 class RunSpline {
  public:
   /// @param sink  receives the spans; it outlives this object
@@ -41,13 +41,13 @@ class RunSpline {
   /// @param s          arc length there [mm]
   /// @param tolerance  bound of the deviation [mm]
   void start(const Vec3& at, double s, double tolerance);
-  /// The next point of the run [mm].
+  /// Appends the block from the last point of the run to this point [mm].
   void push(const Vec3& end);
-  /// The run ends at the last point; everything left goes to the sink.
+  /// Ends the run at the last point and gives all remaining spans to the sink.
   void finish();
 
  private:
-  /// Of the run under way:
+  /// State of the current run:
   ///
   ///   kEmpty --start--> kGrowing --corner found--> kCut --its end is reached--> kGrowing, from the
   ///      ^                 |                        |                           corner on
@@ -55,12 +55,12 @@ class RunSpline {
   ///      |                 v                        |
   ///      '----- end ---- kFinished <----------------'
   ///
-  /// In kFinished a run that ends at a corner is followed by another one, still kFinished.
+  /// If a run in kFinished ends at a corner, the run after it is in kFinished from its begin.
   enum class State : std::uint8_t {
-    kEmpty,     ///< there is none
-    kGrowing,   ///< its end is not known
-    kCut,       ///< it ends at a corner, end_vertex_; more points may follow
-    kFinished,  ///< it ends at end_vertex_; no more points follow
+    kEmpty,     ///< there is no run
+    kGrowing,   ///< the end of the run is not known
+    kCut,       ///< the run ends at a corner, end_vertex_; more points may follow
+    kFinished,  ///< the run ends at end_vertex_; no more points follow
   };
 
   bool is_closed() const noexcept { return state_ == State::kCut || state_ == State::kFinished; }
@@ -84,9 +84,9 @@ class RunSpline {
   KnotMarcher knots_;
   QuasiInterpolant interpolant_;
   SpanChecker spans_;
-  std::size_t begin_vertex_ = 0;  // of the run under way
-  std::size_t end_vertex_ = 0;    // of the run under way, where it is closed
-  int attempts_ = 0;              // to march the same place again
+  std::size_t begin_vertex_ = 0;  // first vertex of the current run
+  std::size_t end_vertex_ = 0;    // last vertex of the current run, in kCut and kFinished
+  int attempts_ = 0;              // how often the same knots have been placed again
 };
 
 }  // namespace twin::geometry

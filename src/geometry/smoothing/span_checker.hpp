@@ -11,38 +11,39 @@
 
 namespace twin::geometry {
 
-/// The spans of a run's spline whose deviation from the polygon is within its limit, in order. The
-/// last kHeldSpans of them are held back, because a span that fails after them may change them.
+/// Checks the spans of a run's spline one after the other, and keeps those whose deviation from the
+/// polygon is within its limit. The last kHeldSpans of them are held back, because a later span
+/// that fails the check may change them.
 class SpanChecker {
  public:
-  /// @param tolerance  the limit of the deviation is a share of it [mm]
+  /// @param tolerance  tolerance of the path; the limit of the deviation is a share of it [mm]
   void start(double tolerance) noexcept { tolerance_ = tolerance; }
   void begin_run() { spans_.restart(0); }
 
-  /// Bounds the deviation of the next span (chord_deviation) and appends the span if the bound is
-  /// within the limit, or if the span is the shortest there may be.
+  /// Computes a bound of the deviation of the next span (chord_deviation), and appends the span if
+  /// the bound is within the limit or if the span has the shortest length that is allowed.
   ///
-  /// @param block  the block that holds the begin of the span
+  /// @param block  index of the block that contains the begin of the span
   /// @returns nothing if the span was appended, else the block that deviates most
   std::optional<std::size_t> append(const SpanCubic& cubic, const Stretch& stretch,
                                     std::size_t block);
 
   /// Index of the span that append() takes next.
   std::size_t next() const noexcept { return spans_.end_index(); }
-  /// Whether more spans are held than must be.
+  /// Whether more than kHeldSpans spans are held.
   bool holds_too_many() const noexcept;
-  /// Gives the oldest span, or all, to the sink. They never change afterwards.
+  /// Gives the oldest span, or all spans, to the sink. They never change afterwards.
   void release_oldest(RunSink& sink) { release(spans_.begin_index() + 1, sink); }
   void release_all(RunSink& sink) { release(spans_.end_index(), sink); }
-  /// Number of spans that are released.
+  /// Number of spans that the sink has got.
   std::size_t released() const noexcept { return spans_.begin_index(); }
 
-  /// The last knot that the released spans depend on; 0 before the first of them.
+  /// Index of the last knot on which the released spans depend; 0 if there are none.
   std::size_t last_fixed_knot() const noexcept {
     return released() == 0 ? 0 : released() + kReach - 1;
   }
 
-  /// Forgets the spans that depend on knots after `last`.
+  /// Removes the spans that depend on knots after index `last`.
   void truncate(std::size_t last);
 
  private:

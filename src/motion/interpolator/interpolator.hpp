@@ -11,7 +11,7 @@
 
 namespace twin::motion {
 
-/// One set point per interpolation period.
+/// Computes one set point for each interpolation period from the planned segments.
 ///
 ///   planned segments --> PhaseClock --> s, v, a at each instant --> PlaceMarker --> set points
 ///
@@ -21,10 +21,11 @@ namespace twin::motion {
 /// CurveEnd::kLand the remainder is lost at the end of every curve: a set point lies on each of
 /// these ends, after a short step.
 ///
-/// brake() leaves the plan for the quickest way to rest on the same path; from there another plan,
-/// made for a start at this place, goes on. arm() lets another plan take over in motion.
+/// brake() leaves the plan and comes to rest on the same path as quickly as the limits allow. From
+/// there the motion goes on by another plan, one that starts at the place of rest. arm() lets
+/// another plan take over without a rest.
 ///
-/// Every member is real-time safe if the source is.
+/// Every function is real-time safe if those of the source are.
 class Interpolator {
  public:
   /// @param source  outlives the interpolator
@@ -32,8 +33,8 @@ class Interpolator {
   Interpolator(SegmentSource& source, double period, const InterpolatorSettings& settings = {})
       : period_(period), clock_(source, settings.curve_end), marker_(settings.update) {}
 
-  /// The set point of the next period; the first call gives the path's first place. On anything but
-  /// Status::kMoving the set point is left as it is.
+  /// Computes the set point of the next period. The first one is the start of the path.
+  /// @param out  gets the set point if the result is Status::kMoving; else it is left as it is
   Status step(SetPoint& out) noexcept {
     const Status status = clock_.advance(period_);
     if (status == Status::kMoving) {
@@ -42,32 +43,32 @@ class Interpolator {
     return status;
   }
 
-  /// From the next period on, brakes on the path, within these limits and those that the planner
-  /// leaves for braking.
+  /// Brakes on the path from the next period on, within these limits and those that the planner has
+  /// given for braking on each segment.
   void brake(const feedrate::RampLimits& limits) noexcept { clock_.brake(limits); }
   bool is_braking() const noexcept { return clock_.is_braking(); }
   bool is_at_rest() const noexcept { return clock_.is_at_rest(); }
 
-  /// Lets another plan go on from a place ahead.
-  /// @returns false, with nothing changed, if the place has been passed or the plan has been left
+  /// Lets another plan take over at a place ahead.
+  /// @returns false, with nothing changed, if the motion has passed the place or is braking
   bool arm(const PlanSwitch& at) noexcept { return clock_.arm(at); }
-  /// At rest: another plan, which starts at this place, is the one to go on with.
+  /// At rest: chooses the plan to go on by, which must start at the place of rest.
   void adopt(std::int64_t plan) noexcept { clock_.adopt(plan); }
-  /// At rest: goes on with the plan adopted.
+  /// At rest: goes on by the adopted plan.
   void resume() noexcept { clock_.resume(); }
-  /// At rest: this place is the path's end.
+  /// At rest: makes the place of rest the end of the path.
   void finish() noexcept { clock_.finish(); }
 
   bool has_started() const noexcept { return clock_.has_started(); }
-  /// Where the motion is; once it has started.
+  /// Where the motion is in its plan. The motion must have started.
   PlanPlace place() const noexcept { return clock_.place(); }
-  /// Number of the plan that the present segment is of.
+  /// Number of the plan that the present segment belongs to.
   std::int64_t plan() const noexcept { return clock_.plan(); }
-  /// Number of the plan that the rest of the path will be followed by.
+  /// Number of the plan by which the path goes on: the armed or adopted one, else the present one.
   std::int64_t latest_plan() const noexcept { return clock_.latest_plan(); }
-  /// Distance from the path's start [mm].
+  /// Distance travelled from the start of the path [mm].
   double distance() const noexcept { return clock_.distance(); }
-  /// Distance needed to come to rest from here [mm].
+  /// Distance along the path that braking to rest would take from here [mm].
   double braking_distance(const feedrate::RampLimits& limits) const noexcept {
     return clock_.braking_distance(limits);
   }

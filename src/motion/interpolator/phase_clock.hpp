@@ -11,37 +11,37 @@
 
 namespace twin::motion {
 
-/// What a step found.
+/// Result of letting one period pass.
 enum class Status : std::uint8_t {
-  kMoving,   ///< a set point of the path
-  kStarved,  ///< the next segment is not there yet: nothing has changed, ask again
-  kAtRest,   ///< braked to rest on the path; adopt() and resume() go on
-  kDone,     ///< the end of the path, reached by the step before
+  kMoving,   ///< there is a new set point
+  kStarved,  ///< the next segment is not planned yet; call again to go on where the motion is
+  kAtRest,   ///< the motion has braked to rest on the path; adopt() and resume() let it go on
+  kDone,     ///< the call before has reached the end of the path
 };
 
-/// A place of the motion in its plan.
+/// Where the motion is in its plan. After braking to rest, phase and time are undefined.
 struct PlanPlace {
   std::int64_t segment = 0;  ///< index of the segment
-  std::size_t phase = 0;     ///< of this segment in the plan; means nothing at rest
-  double time = 0.0;         ///< into the phase [s]; means nothing at rest
-  double s = 0.0;            ///< from the segment's start [mm]
+  std::size_t phase = 0;     ///< index of the phase within the segment
+  double time = 0.0;         ///< time since the begin of the phase [s]
+  double s = 0.0;            ///< distance from the start of the segment [mm]
 };
 
-/// Where one plan of the path ends and another goes on: the same place and feedrate in both, and no
-/// tangential acceleration.
+/// Where the motion changes from one plan of the path to another. Both plans have the same place
+/// and feedrate there, and no tangential acceleration.
 struct PlanSwitch {
-  std::int64_t plan = 0;     ///< number of the plan that goes on
-  std::int64_t segment = 0;  ///< index of the segment in which the present one ends
-  std::size_t phase = 0;     ///< last phase of this segment that is followed
-  double time = 0.0;         ///< into this phase [s]
+  std::int64_t plan = 0;     ///< number of the plan that takes over
+  std::int64_t segment = 0;  ///< index of the segment in which the present plan is left
+  std::size_t phase = 0;     ///< index of the last phase of this segment that is followed
+  double time = 0.0;         ///< time since the begin of this phase at which it is left [s]
 };
 
 /// The motion at one instant, as far as the plan knows it.
 struct PathInstant {
-  feedrate::PathMotion motion;  ///< s from the segment's start
+  feedrate::PathMotion motion;  ///< its s is the distance from the start of the segment
   double elapsed = 0.0;         ///< since the last instant or, if later, the segment's begin [s]
-  bool is_curve_end = false;    ///< it lies on the end of a curve by CurveEnd::kLand
-  bool is_braking = false;      ///< the plan was left for rest
+  bool is_curve_end = false;    ///< the instant lies on the end of a curve, by CurveEnd::kLand
+  bool is_braking = false;      ///< the motion has left the plan and brakes to rest
 };
 
 /// Lets time pass along the phases of the planned segments, and takes segments from their source as
@@ -57,8 +57,8 @@ struct PathInstant {
 ///                      |--- place of rest ---> at rest ---------------'
 ///                      '--- path's end ------> ended
 ///
-/// Between plans the segment at hand is still one of the plan that was left. The next one fetched
-/// is the same piece of path in the plan that goes on.
+/// Between plans the current segment still belongs to the plan that was left. The next fetched
+/// segment is the same part of the path in the plan that takes over.
 class PhaseClock {
  public:
   /// @param source  outlives the clock
@@ -69,14 +69,16 @@ class PhaseClock {
 
   // Every member is real-time safe if the source is.
 
-  /// Lets a period pass; the first call goes to the path's first place. @param period [s]
+  /// Lets one period pass. The first call goes to the start of the path.
+  /// @param period  [s]
   Status advance(double period) noexcept;
-  /// The instant that the last advance() came to.
+  /// The motion at the end of the last advance().
   PathInstant instant() const noexcept;
-  /// The segment that it is on; once the motion has started.
+  /// The current segment. The motion must have started.
   const feedrate::PlannedSegment& segment() const noexcept { return *current_; }
 
-  /// See Interpolator.
+  // The following functions are those of Interpolator, which explains them.
+
   void brake(const feedrate::RampLimits& limits) noexcept;
   bool arm(const PlanSwitch& at) noexcept;
   void adopt(std::int64_t plan) noexcept;

@@ -15,33 +15,36 @@ struct TangentialMotion {
   double jerk = 0.0;          ///< [mm/s^3]
 };
 
-/// Tangential acceleration and jerk of a stream of set points p_i = p(i T), by differences of the
-/// arc length s.
+/// Computes tangential acceleration and jerk from a stream of set points p_i = p(i T), by
+/// differences of the arc length s. The plots show them.
 ///
-/// With h periods of about 1 ms together, at the set point i
+/// Let h be the number of periods in about 1 ms. At the set point i
 ///   a = (s_{i+h} - 2 s_i + s_{i-h}) / (h T)^2
 ///   j = (s_{i+3h} - 3 s_{i+h} + 3 s_{i-h} - s_{i-3h}) / (2 h T)^3.
-/// Each is a weighted mean of the true derivative, with positive weights, over 2 h T and 6 h T: it
-/// smooths steps and exaggerates nothing. The arc length of a period is its chord c times (x/2) /
-/// sin(x/2), x = kappa c the angle by which the path turns in it, and kappa from the circles
-/// through three successive points, weighted
-/// (-11 71 71 -11) / 120 over the four points around the period; chords alone would show a false
-/// jerk wherever the curvature changes. Where a lone turn of more than 0.1 rad shows a corner, the
-/// chord cuts it by an unknown length, and the mean feedrate of the two set points times T stands
-/// for the arc. Before the first and after the last set point the machine is at rest.
+/// Each value is a weighted mean of the true derivative, over 2 h T and 6 h T. All weights are
+/// positive, so steps are smoothed and peaks are never exaggerated.
+///
+/// The arc length of a period is estimated from its chord c as c (x/2) / sin(x/2), where x = kappa
+/// c is the angle by which the path turns in the period. Chords alone would show a false jerk
+/// wherever the curvature changes. kappa is a mean of the curvatures of the circles through three
+/// successive points, with the weights (-11 71 71 -11) / 120 at the four points around the period.
+///
+/// A single turn of more than 0.1 rad is a corner. The chord cuts the corner by an unknown length,
+/// so the arc length there is taken as T times the mean feedrate of the two set points. Before the
+/// first and after the last set point the machine is at rest.
 class MotionFilter {
  public:
   /// @param period  interpolation period T [s]
   explicit MotionFilter(double period);
 
-  /// Periods by which the answer lags behind the input.
+  /// Number of set points by which the result lags behind the input.
   std::size_t delay() const noexcept { return 3 * step_ + 2; }
 
   /// Takes the next set point.
   ///
   /// @param point     [mm]
-  /// @param feedrate  of the set point [mm/s], used at corners alone
-  /// @returns the motion at the set point delay() earlier, or nothing when there is none yet
+  /// @param feedrate  feedrate of the set point, used at corners only [mm/s]
+  /// @returns the motion at the set point delay() earlier; nothing before there is one
   std::optional<TangentialMotion> push(const Vec3& point, double feedrate);
 
  private:
@@ -50,9 +53,9 @@ class MotionFilter {
 
   double period_;
   std::size_t step_;                   // h
-  std::size_t count_ = 0;              // points so far
-  std::array<Vec3, 6> points_{};       // the last six
-  std::array<double, 6> feedrates_{};  // of these
+  std::size_t count_ = 0;              // number of set points so far
+  std::array<Vec3, 6> points_{};       // the last six set points [mm]
+  std::array<double, 6> feedrates_{};  // their feedrates [mm/s]
   std::vector<double> arcs_;           // ring of arc lengths s (6 h + 1)
 };
 

@@ -6,54 +6,53 @@
 
 namespace twin::results {
 
-/// One period of a trajectory, as far as set points alone tell it.
+/// One period of a trajectory, as computed from set points alone.
 struct Step {
   double chord = 0.0;  ///< distance of the two set points [mm]
-  double arc = 0.0;    ///< arc length between them, best estimate [mm]
-  double doubt = 0.0;  ///< how far that may be off [mm]
+  double arc = 0.0;    ///< arc length of the path between them, best estimate [mm]
+  double doubt = 0.0;  ///< bound of the error of `arc` [mm]
   double bend = 0.0;   ///< angle by which the path turns in this period [rad]
 };
 
-/// Turns set points into arc lengths per period.
+/// Estimates from set points the arc length that the path covers in each period.
 ///
-/// The chord c joins two set points, but the machine moves along the arc between them. On a path of
-/// curvature kappa the path turns by x in the period, and the arc a follows from
+/// The chord c joins two set points, but the machine moves along the arc between them. A path of
+/// curvature kappa turns by the angle x in the period, and the arc a follows from
 ///   sin(x / 2) = kappa c / 2,   a = c (x / 2) / sin(x / 2),                          (1)
-/// which is exact on a circle. The arc is longer than the chord by c x^2 / 24. That looks small.
-/// Yet the second difference of chords misses T / 24 d/dt(a_n^2 / v) of the tangential
-/// acceleration, which is a tenth of it at a normal acceleration of 2450 mm/s^2. The third
-/// difference misses more.
+/// which is exact on a circle. The arc is longer than the chord by only c x^2 / 24. Yet differences
+/// of chords in place of arcs would falsify the tangential acceleration by T / 24 d/dt(a_n^2 / v),
+/// a tenth of its value at a normal acceleration a_n of 2450 mm/s^2, and the jerk by more.
 ///
 /// The curvature vector at set point i is that of the circle through the points i - 1, i, i + 1,
 ///   kappa_i = 2 (e_(i-1) x e_i) / |p_(i+1) - p_(i-1)|,   e_i = unit (p_(i+1) - p_i). (2)
-/// Its mean over the period between points i and i + 1 is that of the polynomial through four
-/// points,
+/// The mean curvature over the period between points i and i + 1 is that of the polynomial through
+/// four of these values,
 ///   kappa = (-11 kappa_(i-1) + 71 kappa_i + 71 kappa_(i+1) - 11 kappa_(i+2)) / 120.  (3)
-///
 /// The weights take into account that kappa_i itself is a mean over two periods. They are exact for
 /// a curvature that is a cubic function of s.
 ///
-/// Where the curvature jumps or a corner lies inside a period, set points do not tell the arc. The
-/// field `doubt` says how far it may be off: by the effect on (1) of the second difference of
-/// kappa,
+/// Set points do not determine the arc if the curvature jumps or a corner lies inside the period.
+/// The field `doubt` bounds the error. It is the change of a in (1) that the second difference of
+/// kappa would cause,
 ///   dx = c max |kappa_(i+1) - 2 kappa_i + kappa_(i-1)|,
 ///   u = c (2 x dx + dx^2 + 3 l^2) / 24,                                             (4)
-/// where l is the part of the turning angle that exceeds that of the neighbours, as at a corner
-/// between two set points. A turn of more than kSharp within a period is a corner for certain. The
-/// arc may then be off by as much as the longest of the chords around it.
+/// where l is the angle by which the path turns more than in the neighbouring periods, as it does
+/// at a corner between two set points. A turn of more than kSharp within a period must be a corner.
+/// The doubt is then the longest of the chords around the period.
 class ArcSteps {
  public:
-  static constexpr double kSharp = 0.7;  ///< turning angle of one period that no curve has [rad]
+  static constexpr double kSharp = 0.7;  ///< a larger turn within one period is a corner [rad]
   static constexpr int kDelay = 3;       ///< push(n) completes the period from point n - 3 to n - 2
 
   /// Starts at rest on the given point [mm].
   void reset(const Vec3& point) noexcept;
 
-  /// Takes the next set point [mm] and completes the period kDelay points ago. Real-time safe.
+  /// Takes the next set point [mm]. Real-time safe.
+  /// @returns the period that began kDelay set points ago
   Step push(const Vec3& point) noexcept;
 
  private:
-  /// What belongs to one set point: the chord that ends there, and how the path bends there.
+  /// What is known of one set point: the chord that begins there, and how the path bends there.
   struct Node {
     double chord = 0.0;             // to the next set point [mm]
     double turn = 0.0;              // between the chords before and after [rad]

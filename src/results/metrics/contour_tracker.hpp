@@ -10,73 +10,79 @@
 
 namespace twin::results {
 
-/// Contour error of a stream of positions against a stream of NC blocks, in bounded memory.
+/// Computes the contour error of a stream of positions against a stream of NC blocks, in bounded
+/// memory.
 ///
-/// The contour error is the distance to the nearest place of the programmed path, with lines and
-/// arcs exact. Where a path passes close to itself, the nearest place of the whole path could
-/// belong to another pass and hide an error. So only that part of the path is searched on which the
-/// machine can be:
+/// The contour error is the distance of the position from the nearest point of the programmed path,
+/// with lines and arcs exact. If a path passes close to itself, the nearest point of the whole path
+/// may lie on another pass and hide an error. So only the part of the path where the machine can be
+/// is searched:
 ///
 ///              c - w          c          c + w
 ///   -------------[------------x------------]----------->  arc length s
-///                             command's place
+///                      nearest point to the command
 ///
-/// c is the place of the command: the nearest place within its NC block that is not behind the
-/// place of the command before (by more than kBack). The half width is
+/// c is the point of the command's NC block that is nearest to the command, but not more than kBack
+/// behind the c of the command before. The half width is
 ///   w = window + 4 |position - command|,   at most kReach.
-/// The tracking error moves the position along the path by its own size, and by more where the path
-/// bends, which the factor 4 covers.
+/// A tracking error of this size moves the nearest point along the path by as much, and by more
+/// where the path bends, which the factor 4 covers.
 ///
-/// The search goes outwards from c. Where the end of a block is farther from the position than the
-/// best place so far, by g, the search skips the next g of arc length: a path comes no nearer than
-/// it advances.
+/// The search goes outwards from c. If the end of a block is farther from the position than the
+/// best point so far, by a length g, the search skips the next g of arc length, because the
+/// distance cannot fall by more than the path advances.
 class ContourTracker {
  public:
-  /// Most arc length that is searched on either side [mm]. Twice as much finds the place of a
-  /// machine that lags by more than 5 mm, and more of the program is held in memory.
+  /// Largest half width of the search [mm]. It covers a machine that lags by up to 5 mm. Twice as
+  /// much covers twice the lag, and holds twice as much of the program in memory.
   static constexpr double kReach = 20.0;
-  /// How far the command may lie beyond the ends of its block [mm]: smoothing moves block ends.
+  /// How far beyond the ends of its block the command may lie, since smoothing moves them [mm].
   static constexpr double kMargin = 0.5;
-  /// How far the place of the command may step back [mm], as it does inside a sharp corner.
+  /// How far c may step back from one command to the next, as it does in a sharp corner [mm].
   static constexpr double kBack = 0.1;
 
-  /// @param window  arc length that is searched on either side where the tracking error is zero [mm]
+  /// @param view    whether distances are in space or as seen along Z
+  /// @param window  half width of the search where the tracking error is zero [mm]
   explicit ContourTracker(View view, double window = 0.5) : view_(view), window_(window) {}
 
   /// Appends the next block of the program. Every block is appended in order, also one at rest.
   void add(const gcode::Block& block);
 
-  /// Arc length known beyond the end of a block; negative if the block itself is not known yet
-  /// [mm].
+  /// Arc length that is known beyond the end of a block; negative if the block itself is not known
+  /// yet [mm].
+  /// @param block  number of the block, from 0
   double ahead(std::int64_t block) const noexcept;
 
-  /// Whether the blocks so far decide what follow() and nearest() return for a command on this
-  /// block.
+  /// Whether enough blocks have come for follow() and nearest() with a command on this block:
+  /// further blocks would not change the result.
   bool is_ready(std::int64_t block) const noexcept { return ahead(block) >= kReach + kMargin; }
 
-  /// Moves on to the next command.
-  /// @param block    NC block of the command, from 0, no lower than before; it must have been added
+  /// Moves on to the next command. Call it once for each set point.
+  /// @param block    number of the command's NC block, from 0. The block must have been added, and
+  ///                 numbers must not fall.
   /// @param command  set point [mm]
   void follow(std::int64_t block, const Vec3& command);
 
-  /// Place of the programmed path that belongs to a position at the instant of the last command.
-  /// @param position [mm] @returns the place; its distance is the contour error [mm]
+  /// Point of the programmed path that is nearest to a position, which the machine has at the
+  /// instant of the last command.
+  /// @param position  [mm]
+  /// @returns the point; its distance is the contour error [mm]
   NearestPoint nearest(const Vec3& position) const;
 
-  /// Blocks held at present.
+  /// Number of blocks in memory.
   std::size_t stored() const noexcept { return pieces_.size(); }
 
  private:
   struct Piece {
     gcode::Block block;
-    double s0;  // arc length of the path at its start [mm]
-    double s1;  // and at its end [mm]
+    double s0;  // arc length of the path at the block's start [mm]
+    double s1;  // arc length of the path at the block's end [mm]
   };
-  /// The nearest place that a search has found so far.
+  /// The nearest point that a search has found so far.
   struct Found {
     NearestPoint place;
-    double s = 0.0;         // its arc length [mm]
-    bool is_known = false;  // there is one
+    double s = 0.0;         // arc length of the point [mm]
+    bool is_known = false;  // whether a point was found
   };
 
   double separation(const Vec3& a, const Vec3& b) const noexcept;
@@ -90,9 +96,9 @@ class ContourTracker {
   View view_;
   double window_;
   std::deque<Piece> pieces_;
-  std::int64_t first_ = 0;   // number of pieces_.front() in the program
-  std::size_t current_ = 0;  // piece the command's place is on
-  double place_ = 0.0;       // arc length of the command's place [mm]
+  std::int64_t first_ = 0;   // number of the block pieces_.front() in the program
+  std::size_t current_ = 0;  // index of the piece on which c lies
+  double place_ = 0.0;       // arc length of c [mm]
   Vec3 command_ = Vec3::Zero();
   bool has_command_ = false;
 };

@@ -18,20 +18,20 @@ struct ErrorStats {
   double rms = 0.0;  ///< [mm]
 };
 
-/// Largest value and root mean square of shares [-]; 0.01 is 1 %.
+/// Largest value and root mean square of a relative error [-]; 0.01 is 1 %.
 struct ShareStats {
   double max = 0.0;
   double rms = 0.0;
 };
 
-/// Wall-clock time that the computation of one cycle took.
+/// Distribution of the wall-clock time that the computation of one cycle took.
 struct CycleTimes {
   double p50 = 0.0;  ///< [s]
   double p99 = 0.0;  ///< [s]
   double max = 0.0;  ///< [s]
 };
 
-/// Distribution of a time.
+/// Distribution of a time: percentiles 50, 99 and 99.9, and the largest value.
 struct TimeStats {
   double p50 = 0.0;   ///< [s]
   double p99 = 0.0;   ///< [s]
@@ -39,17 +39,17 @@ struct TimeStats {
   double max = 0.0;   ///< [s]
 };
 
-/// How a run kept to the wall clock.
+/// How punctual a run on the wall clock was. A period has a deadline at which it should begin.
 struct RealTimeStats {
-  TimeStats wake_up;               ///< from a period's deadline to its begin
-  TimeStats compute;               ///< of interpolator, servo and monitors
-  TimeStats total;                 ///< from the deadline to the written outputs
+  TimeStats wake_up;               ///< from the deadline of a period to its begin
+  TimeStats compute;               ///< computing time of interpolator, servo and monitors
+  TimeStats total;                 ///< from the deadline to the end of writing the outputs
   std::int64_t late_periods = 0;   ///< periods that began at the next deadline or later
-  double worst_latency = 0.0;      ///< of all periods, those at rest included [s]
-  std::vector<std::string> notes;  ///< what the system did not grant
+  double worst_latency = 0.0;      ///< latest begin of any period, also of those at rest [s]
+  std::vector<std::string> notes;  ///< real-time features that the system refused
 };
 
-/// The NC blocks of a program. The lengths are those of the short blocks.
+/// Counts of the NC blocks of a program, and the lengths of its short blocks.
 struct BlockStats {
   std::int64_t total = 0;
   std::int64_t short_blocks = 0;  ///< blocks in runs of continuous short blocks
@@ -58,7 +58,7 @@ struct BlockStats {
   double length_max = 0.0;        ///< [mm]
 };
 
-/// The segments that the blocks became.
+/// Counts of the segments that path building made of the blocks.
 struct SegmentCounts {
   std::int64_t total = 0;
   std::int64_t curves = 0;
@@ -68,56 +68,56 @@ struct SegmentCounts {
 
 /// What the certified planner guarantees of its path.
 struct Certificate {
-  double deviation = 0.0;  ///< bound of the distance between path and program, both ways [mm]
-  std::int64_t spans = 0;  ///< of the fitted curves
+  double deviation = 0.0;  ///< no point of path or program is farther from the other [mm]
+  std::int64_t spans = 0;  ///< number of spans of the fitted curves
 };
 
 /// A change of the feed override. Times count from the first set point.
 struct OverrideRecord {
-  double asked_at = 0.0;  ///< [s]
-  double percent = 0.0;   ///< of the programmed feedrate; 0 is a feed hold [%]
-  double from = 0.0;      ///< when the motion begins to follow it; a hold begins to brake [s]
+  double asked_at = 0.0;  ///< time of the request [s]
+  double percent = 0.0;   ///< share of the programmed feedrate; 0 is a feed hold [%]
+  double from = 0.0;      ///< time at which it takes effect; for a hold the begin of braking [s]
 };
 
-/// What only a run on a machine has.
+/// Results that only a run on a machine has.
 struct MachineResults {
-  double machining_time = 0.0;               ///< first set point to last sample [s]
-  ErrorStats contour_error;                  ///< encoder against programmed path
+  double machining_time = 0.0;               ///< from the first set point to the last sample [s]
+  ErrorStats contour_error;                  ///< encoder position against programmed path
   ErrorStats table_contour_error;            ///< true position against programmed path
   std::array<ErrorStats, 2> tracking_error;  ///< x, y: set point less encoder
   CycleTimes cycle_time;
   double real_time_factor = 0.0;          ///< machining time over wall-clock time [-]
-  std::optional<RealTimeStats> realtime;  ///< of a run on the wall clock; else there is none
+  std::optional<RealTimeStats> realtime;  ///< nothing if the run was not on the wall clock
 };
 
 /// All results of a run, as summary.json holds them, and what the run was made from.
 struct Summary {
   std::string program;       ///< file name of the program
   std::string machine;       ///< name of the machine file
-  std::string hal;           ///< "mujoco", "ideal", "rig"; "none" for a plan
-  std::string planner;       ///< that planned: "certified", "paper"
-  std::string interpolator;  ///< "nurbs", "bezier", "linear"
-  bool simulated = true;     ///< false only where metal moved
+  std::string hal;           ///< machine: "mujoco", "ideal", "rig"; "none" for a plan
+  std::string planner;       ///< planning.planner: "certified", "paper"
+  std::string interpolator;  ///< path.curves: "nurbs", "bezier", "linear"
+  bool simulated = true;     ///< false if real axes moved
   double period = 0.001;     ///< [s]
   BlockStats blocks;
   SegmentCounts segments;
-  std::optional<Certificate> certified;  ///< of the certified planner's path
-  double compression_factor = 0.0;       ///< short blocks over the curves they became [-]
+  std::optional<Certificate> certified;  ///< nothing for the planner "paper"
+  double compression_factor = 0.0;       ///< number of short blocks per fitted curve [-]
   double path_length = 0.0;              ///< [mm]
-  double planned_time = 0.0;             ///< before running, without override [s]
-  std::optional<double> time_bound;      ///< lower bound of planned_time, where asked for [s]
-  std::optional<double> planning_time;   ///< wall-clock time of planning, where measured [s]
+  double planned_time = 0.0;             ///< time of motion without override, by the plan [s]
+  std::optional<double> time_bound;      ///< lower bound of planned_time, if asked for [s]
+  std::optional<double> planning_time;   ///< wall-clock time of planning, if measured [s]
   std::vector<OverrideRecord> overrides;
   ErrorStats command_contour_error;  ///< set points against programmed path
   ShareStats feedrate_fluctuation;   ///< see FeedrateFluctuation
   AuditPeaks audit;
-  std::optional<MachineResults> run;  ///< there is none for a plan
+  std::optional<MachineResults> run;  ///< nothing for a plan
 
-  std::vector<std::string> notes;  ///< what was changed of what was asked for, and why
-  std::string version;             ///< of the program that made the run, as in "0.9.0"
+  std::vector<std::string> notes;  ///< settings that were changed for the run, and why
+  std::string version;             ///< version of twin that made the run, as in "0.9.0"
   std::string command;             ///< the command line, or a caller's own words; may be empty
-  std::string program_sha256;      ///< of the program's bytes, 64 hexadecimal digits
-  std::vector<Setting> settings;   ///< the whole machine file, as it was in force
+  std::string program_sha256;      ///< checksum of the NC program, 64 hexadecimal digits
+  std::vector<Setting> settings;   ///< all settings of the machine file, as used
 };
 
 /// Text of summary.json: keys in a fixed order, nine significant digits, the same bytes for the

@@ -14,12 +14,12 @@
 
 namespace twin::studies::identify {
 
-/// How to fit.
+/// Options of a fit.
 struct FitOptions {
-  std::size_t evaluations = 1200;  ///< simulations of the global search, an axis
+  std::size_t evaluations = 1200;  ///< number of simulations in the global search, for each axis
   std::uint32_t seed = 1;
   std::vector<std::string> fixed;  ///< keys that keep the starting value
-  std::vector<std::string> freed;  ///< keys that are fitted though they would be held
+  std::vector<std::string> freed;  ///< keys that are fitted although they are fixed by default
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double)> progress;  ///< gets the done share, 0 to 1
 
@@ -33,11 +33,11 @@ struct FitOptions {
 
 /// Where the value of a parameter comes from.
 enum class Verdict {
-  kIdentified,    ///< fitted; the data show it
-  kMeasured,      ///< read off the data directly
-  kUnidentified,  ///< the data do not show it: starting value
-  kAtBound,       ///< the data push it out of its range: starting value
-  kFixed,         ///< the user wanted the starting value
+  kIdentified,    ///< the fit found it, and the data determine it
+  kMeasured,      ///< computed from the data directly, without a fit
+  kUnidentified,  ///< starting value, because the data do not determine it
+  kAtBound,       ///< starting value, because the fit ran to the end of the parameter's range
+  kFixed,         ///< starting value, because the user wanted so
 };
 
 /// One parameter of the result.
@@ -46,25 +46,26 @@ struct FittedParameter {
   std::string name;
   double start = 0.0;  ///< in the key's unit
   double value = 0.0;  ///< in the key's unit
-  /// Standard deviation, in the key's unit. For an unidentified parameter it is the one that a fit
-  /// would have had.
+  /// Standard deviation of the fitted value, in the key's unit. For an unidentified parameter it is
+  /// the one that the fitted value would have had.
   double sigma = 0.0;
-  double relative = 0.0;  ///< sigma over the value, or over its natural size
+  double relative = 0.0;  ///< sigma divided by the value, or by its typical size if that is larger
   Verdict verdict = Verdict::kIdentified;
-  std::string why;  ///< of an unidentified one
+  std::string why;  ///< why a parameter is unidentified
 };
 
-/// What the records say of one axis.
+/// Result of fitting one axis.
 struct AxisFit {
-  config::MachineFile machine;  ///< the start with the values of this axis
+  config::MachineFile machine;  ///< the starting machine with the new values of this axis
   std::vector<FittedParameter> parameters;
-  double residual_rms = 0.0;  ///< of the open-loop residual [mm]
-  double rounding_rms = 0.0;  ///< that the encoder's rounding alone makes, quantum / sqrt(12) [mm]
-  std::size_t evaluations = 0;  ///< simulations of the global search
+  double residual_rms = 0.0;    ///< RMS of the open-loop residual [mm]
+  double rounding_rms = 0.0;    ///< RMS of the encoder's rounding, 1 count / sqrt(12) [mm]
+  std::size_t evaluations = 0;  ///< number of simulations in the global search
   bool was_stopped = false;
 };
 
-/// Fits one axis: direct estimates, CMA-ES, Levenberg-Marquardt, and what the data show.
+/// Fits one axis in four steps: direct estimates from the data, a global search (CMA-ES), a local
+/// one (Levenberg-Marquardt), and a verdict on each parameter from its standard deviation.
 AxisFit fit_axis(AxisProblem problem, const FitOptions& options);
 
 }  // namespace twin::studies::identify

@@ -12,54 +12,62 @@
 
 namespace twin::studies::identify {
 
-/// How long a run holds still before its first set point [s] (runtime::Pace).
+/// Time for which a run holds the machine at rest before its first set point [s]; the same as
+/// runtime::MotionOptions::rest_before.
 inline constexpr double kSettleTime = 0.3;
 
-/// What makes one servo axis: its mechanics and drive, and the loop around them.
+/// Parameters of one servo axis.
 struct AxisSetup {
-  hal::mujoco::AxisParams axis;
-  motion::Gains servo;
-  double period = 0.001;       ///< interpolation period T [s]
-  double physics_step = 1e-4;  ///< at most; a whole number of steps makes a period [s]
+  hal::mujoco::AxisParams axis;  ///< mechanics, drive, converter and encoder
+  motion::Gains servo;           ///< gains of the position loop
+  double period = 0.001;         ///< interpolation period T [s]
+  double physics_step = 1e-4;    ///< longest integration step; it is shortened to divide T [s]
 };
 
 /// The setup of one axis of a machine file.
 AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis);
 
-/// One axis at the instant t_k at which the controller reads its encoder.
+/// State of one axis at the instant at which the controller reads its encoder.
 struct AxisRow {
-  double encoder = 0.0;  ///< what the counts mean [mm]
+  double encoder = 0.0;  ///< position by the encoder counts [mm]
   double table = 0.0;    ///< true position [mm]
   double volts = 0.0;    ///< drive command of this period, before the converter [V]
 };
 
-/// One servo axis of the simulated table with its position loop, without MuJoCo.
+/// Simulates one servo axis of the table with its position loop, without MuJoCo.
 ///
-/// The axes of the table with rigid screws are two slides that move each other not at all, so one
-/// axis alone is the whole machine to rounding: converter, axis (delay, drive, friction) and
-/// encoder are those of the table, and the mass M = m + J (2 pi / lead)^2 [kg] is integrated as
-/// MuJoCo does,
+///   set point -> AxisServo -> converter -> drive -> torque, friction -> slide -> encoder
+///                    ^                                                              |
+///                    '------------------------ position ----------------------------'
+///
+/// With rigid screws the two slides of the table do not act on each other. So each axis can be
+/// simulated alone, with the same result as the whole table up to rounding. Converter, drive,
+/// friction and encoder are the classes that the table uses. The mass M = m + J (2 pi / lead)^2
+/// [kg] is integrated over the physics step h as in MuJoCo,
 ///   v' = v + h F / M,   x' = x + h v'.
-/// A period is that of the controller: read (one period of time passes), servo, write.
+/// Each period has the order of the controller: read (one period of time passes), servo, write.
 ///
-/// Screws that give (xy_table_compliant.xml) and the pen are not modelled.
+/// Compliant screws (xy_table_compliant.xml) and the pen are not modelled.
 class AxisModel {
  public:
-  /// The slide at rest, the servo off, no time passed. Allocates.
-  /// @param start  position of the slide, in the controller's coordinates [mm]
+  /// Starts with the slide at rest and the servo off. Allocates.
+  /// @param start  position of the slide, in the coordinates of the controller [mm]
   explicit AxisModel(const AxisSetup& setup, double start = 0.0);
 
-  /// One period of the closed loop. Real-time safe.
+  /// Simulates one period of the closed loop. Real-time safe.
   AxisRow follow(const motion::Reference& reference) noexcept;
-  /// One period with the position loop replaced by a drive command [V]. Real-time safe.
+  /// Simulates one period in open loop, with a given drive command. Real-time safe.
+  /// @param volts  drive command [V]
   AxisRow drive(double volts) noexcept;
-  /// Holds a position for kSettleTime, as a run does before its first set point [mm]. Real-time
-  /// safe.
+  /// Holds a position in closed loop for kSettleTime, as a run does before its first set point.
+  /// Real-time safe.
+  /// @param position  [mm]
   void settle(double position) noexcept;
 
   /// Velocity of the slide [mm/s].
   double velocity() const noexcept { return velocity_; }
-  /// True once the motion is no longer finite or far outside any machine; it then stands still.
+  /// True once the simulated motion is not finite or far outside any machine; the slide then stands
+  /// still.
   bool has_failed() const noexcept { return has_failed_; }
 
  private:
@@ -73,8 +81,8 @@ class AxisModel {
   double mm_per_count_;
   double rad_per_mm_;        // of the motor [rad/mm]
   double force_per_torque_;  // at the slide [N/(N.m)]
-  double rate_per_force_;    // h / M [mm/s/N]
-  double step_;              // h [s]
+  double rate_per_force_;    // h / M, change of velocity in a step per force [mm/s/N]
+  double step_;              // physics step h [s]
   int steps_;                // physics steps in a period
   std::int64_t steps_done_ = 0;
   double position_;        // of the slide [mm]
@@ -82,23 +90,26 @@ class AxisModel {
   bool has_failed_ = false;
 };
 
-/// A whole run of one axis.
+/// Result of simulate().
 struct AxisRun {
-  std::vector<AxisRow> rows;  ///< one for each set point
-  bool has_failed = false;    ///< the loop became unstable; the rows stand still from then on
+  std::vector<AxisRow> rows;  ///< one row for each set point
+  bool has_failed = false;    ///< the loop became unstable; later rows repeat the last position
 };
 
-/// Runs one axis: kSettleTime at the first set point, then along all of them.
+/// Simulates a run of one axis in closed loop: holds the first set point for kSettleTime, then
+/// follows all set points.
 AxisRun simulate(const AxisSetup& setup, std::span<const motion::Reference> set_points);
 
-/// Positions with the velocity and acceleration of their central differences, for set points that
-/// were recorded as positions only.
+/// Adds velocity and acceleration to set points that were recorded as positions only.
 ///
+/// Both are central differences of the positions r_k,
 ///   v_k = (8 (r_{k+1} - r_{k-1}) - (r_{k+2} - r_{k-2})) / 12 T,
 ///   a_k = (r_{k+1} - 2 r_k + r_{k-1}) / T^2,
-/// both exact where the jerk is constant,
-/// at rest before the first and after the last.
-/// @param positions [mm]  @param period T [s]
+/// which are exact where the jerk is constant. Before the first position and after the last one the
+/// axis is taken to be at rest.
+///
+/// @param positions  r_k [mm]
+/// @param period     T [s]
 std::vector<motion::Reference> differentiate(std::span<const double> positions, double period);
 
 }  // namespace twin::studies::identify

@@ -10,48 +10,61 @@
 
 namespace twin::studies::identify {
 
-inline constexpr double kFarTravel = 1e4;  ///< limit switches play no part in a fit [mm]
+/// Travel of the simulated axis during a fit, so large that no limit switch is reached [mm].
+inline constexpr double kFarTravel = 1e4;
 
-/// What was recorded of one axis in one trace, a row a period.
+/// The signals of one axis in one trace, one value for each period.
 struct AxisRecord {
   std::vector<motion::Reference> command;  ///< set points
-  std::vector<double> measured;            ///< [mm]
+  std::vector<double> measured;            ///< positions by the encoder [mm]
   std::vector<double> volts;               ///< drive command [V]; empty where it was not recorded
 
   bool has_volts() const noexcept { return !volts.empty(); }
 };
 
-/// The simulated axis, driven by the command that drove the recorded one.
+/// The least-squares problem of fitting one axis: how far the simulated axis is from the recorded
+/// one if both get the same drive command.
 ///
-/// The drive command is known even where it was not recorded: the measured position is what the
-/// recorded controller saw, so the command is V_k = servo(r_k, y_k) with the gains under test. This
-/// command drives the simulated drive and slide in open loop. The residual is
-///   rho = H (y - x),
-/// where y is the measured position and x the simulated one, which is not quantised.
+///   set points r, measured y --> servo --> drive command V --> simulated axis --> x
+///   residual  rho = H (y - x)
 ///
-/// A loop closed in the simulation would jump by whole counts at other instants than the recorded
-/// loop. In open loop the residual is a smooth function of the parameters, and with the true
-/// parameters it is the rounding of the encoder alone. The integral of the drive keeps x near the
-/// integral of the command, so that rho shows the torque which the motion needed. H is a high-pass
-/// filter with the time constant kForgetting; it forgets what the model lacks, which would add up
-/// in x.
+/// If the drive command was not recorded, it is computed: the recorded controller saw the measured
+/// position y_k, so its command was V_k = servo(r_k, y_k), with the gains under test. The command
+/// moves the simulated drive and slide in open loop. y is the measured position, and x the
+/// simulated one, which is not quantised.
+///
+/// The loop is not closed in the simulation for this reason: a closed loop would pass from count to
+/// count at other instants than the recorded one, which makes the residual rough. In open loop the
+/// residual is a smooth function of the parameters, and with the true parameters only the rounding
+/// of the encoder is left.
+///
+/// The velocity loop of the drive keeps x near the integral of the command, so that rho shows the
+/// torque that the motion needed. Effects that the model lacks would add up in x over a long
+/// record. The high-pass filter H with the time constant kForgetting removes them.
 class AxisProblem {
  public:
   static constexpr double kForgetting = 0.5;  ///< time constant of H [s]
 
-  /// @param base  machine whose other numbers stand; its period is that of the records
-  /// @param hum_phase  of each record, added to that of the machine [rad]
+  /// @param base     machine with all parameters that are not fitted; its period must be that of
+  ///                 the records
+  /// @param axis     the axis that the records are of
+  /// @param records  one for each trace
   AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<AxisRecord> records);
 
-  /// Residuals of all records for other parameters [mm]; very large where the motion is unstable.
+  /// Residuals rho of all records in use, one record after the other [mm]. They are very large if
+  /// the simulated motion is unstable.
+  /// @param set    the parameters to be changed
+  /// @param units  their values, each scaled to 0..1 (see ParameterSet)
   Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const;
 
-  /// y - x of one record, not filtered [mm].
+  /// Difference y - x of one record without the filter H [mm].
   Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record) const {
     return difference(machine, record, hum_phase_[record]);
   }
 
-  /// Sum of squared residuals of one record, with another phase of its hum [mm^2].
+  /// Sum of squared residuals of one record [mm^2].
+  /// @param hum_phase  phase of the drive's hum at the begin of the record, added to that of the
+  ///                   machine [rad]
   double cost(std::size_t record, double hum_phase) const;
 
   const config::MachineFile& base() const noexcept { return base_; }
@@ -59,12 +72,12 @@ class AxisProblem {
   /// The records in use.
   std::span<const AxisRecord> records() const noexcept { return {records_.data(), used_}; }
   bool has_volts() const { return records().front().has_volts(); }
-  /// Uses the first records only; all at the beginning.
+  /// Uses the first `count` records only. At first all records are in use.
   void use(std::size_t count) noexcept;
   std::size_t total() const noexcept { return records_.size(); }
   hal::Axis axis() const noexcept { return axis_; }
   Eigen::Index rows() const noexcept { return rows_; }
-  /// Phase of the hum of each record against the first [rad].
+  /// Phase of the drive's hum at the begin of each record, relative to the first record [rad].
   std::vector<double>& hum_phase() noexcept { return hum_phase_; }
   const std::vector<double>& hum_phase() const noexcept { return hum_phase_; }
 

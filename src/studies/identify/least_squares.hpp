@@ -6,37 +6,41 @@
 
 namespace twin::studies::identify {
 
-/// Residuals r(u) of a point u of the unit cube; called from several threads at a time.
+/// Computes the residuals r(u) at a point u of the unit cube. Several threads call it at a time.
 using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
 struct LeastSquaresOptions {
-  int iterations = 30;       ///< at most
-  double difference = 1e-4;  ///< step of the finite differences, of the unit cube
-  double tolerance = 1e-5;   ///< ends when an iteration gains a smaller share of the cost
-  const std::atomic<bool>* stop = nullptr;  ///< set to end early
+  int iterations = 30;       ///< largest number of iterations
+  double difference = 1e-4;  ///< step of the finite differences, as a share of the unit cube [-]
+  double tolerance = 1e-5;   ///< ends when an iteration lowers the cost by less than this share [-]
+  const std::atomic<bool>* stop = nullptr;  ///< set by the caller to end early; may be null
 };
 
-/// Where the sum of squares is least, and the derivatives there.
+/// The point at which the sum of squares is smallest.
 struct LeastSquaresFit {
-  Eigen::VectorXd x;         ///< in the unit cube
+  Eigen::VectorXd x;         ///< the point, in the unit cube
   Eigen::VectorXd residual;  ///< r(x)
   double cost = 0.0;         ///< |r|^2
 };
 
 /// Minimises |r(u)|^2 on the unit cube [0, 1]^n from a start in it.
 ///
-/// Levenberg-Marquardt: the step d solves (J^T J + mu diag(J^T J)) d = -J^T r, with mu smaller
-/// after a gain and larger after a loss. Coordinates at a bound that the gradient pushes outwards
-/// stand still for an iteration; steps are cut to the cube.
+/// The method is Levenberg-Marquardt: the step d solves (J^T J + mu diag(J^T J)) d = -J^T r, where
+/// mu becomes smaller after a step that lowers the cost and larger after one that does not. Steps
+/// are clamped to the cube. A coordinate that is at a bound and would leave the cube is held for
+/// one iteration.
 LeastSquaresFit least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
                               const LeastSquaresOptions& options = {});
 
-/// Derivatives J_ij = dr_i / du_j by differences, inwards at a bound; columns in parallel.
+/// Derivatives J_ij = dr_i / du_j by one-sided differences, which point inwards at a bound. The
+/// columns are computed in parallel.
+/// @param residual    r(x)
+/// @param difference  step in u [-]
 Eigen::MatrixXd jacobian(const Residuals& residuals, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& residual, double difference);
 
-/// The same by central differences where both sides are inside: twice the work, and what cancels
-/// between columns cancels.
+/// The same by central differences, where both sides are inside the cube. It is twice the work. In
+/// return, effects of two parameters that cancel each other also cancel in their columns.
 Eigen::MatrixXd central_jacobian(const Residuals& residuals, const Eigen::VectorXd& x,
                                  double difference);
 
@@ -44,14 +48,14 @@ Eigen::MatrixXd central_jacobian(const Residuals& residuals, const Eigen::Vector
 ///
 /// With the scores s_b = sum over block b of J_k r_k,
 ///   C = (J^T J)^-1 (sum_b s_b s_b^T) (J^T J)^-1,
-/// which stays right when residuals are correlated over less than a block [Liang & Zeger 1986]. A
-/// variance is never less than that of uncorrelated residuals, s^2 (J^T J)^-1, and very large in
-/// directions that J does not see.
-/// @param block  rows in a block
+/// which remains correct if residuals are correlated over less than a block [Liang & Zeger 1986].
+/// No variance is smaller than that of uncorrelated residuals, s^2 (J^T J)^-1. Directions in which
+/// the residuals do not change get a very large variance.
+/// @param block  number of rows in a block
 Eigen::MatrixXd block_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
                                  Eigen::Index block);
 
-/// (J^T J)^-1, with columns scaled to one size first.
+/// (J^T J)^-1. For accuracy the columns of J are scaled to the same length first.
 Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& jacobian);
 
 }  // namespace twin::studies::identify

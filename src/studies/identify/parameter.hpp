@@ -10,45 +10,49 @@
 
 namespace twin::studies::identify {
 
-/// How a parameter's range is mapped on [0, 1].
+/// How the range of a parameter is mapped to [0, 1].
 enum class Scale {
   kLinear,
   kLogarithmic,  ///< equal ratios are equal steps; min > 0
 };
 
-/// A number of the machine file that may be fitted: its key and the range to look in.
+/// A number of the machine file that is to be fitted, and the range of the search.
 struct Parameter {
   std::string key;   ///< "table.x.coulomb_friction_N"; the unit may be left out
-  double min = 0.0;  ///< in the key's unit
-  double max = 1.0;  ///< in the key's unit
+  double min = 0.0;  ///< lower end of the range, in the key's unit
+  double max = 1.0;  ///< upper end of the range, in the key's unit
   Scale scale = Scale::kLinear;
 };
 
-/// Place of a value in its range, 0 at min and 1 at max; outside of the range beyond these.
+/// Maps a value to its place in the range: 0 at min, 1 at max, below 0 or above 1 outside.
+/// @param value  in the key's unit
 double to_unit(const Parameter& parameter, double value);
-/// Value at a place in the range, in the key's unit.
+/// The inverse of to_unit(). @returns the value, in the key's unit
 double from_unit(const Parameter& parameter, double unit);
 
-/// Parameters found among the settings of a machine file: vectors of numbers in, machine files out.
+/// A list of parameters that turns a vector of numbers, as a search has it, into a machine file and
+/// back.
 ///
-/// Keys are those of config::bindings, so whatever the machine file has can be fitted.
+/// Every number of the machine file can be a parameter; its key is that of config::bindings.
 class ParameterSet {
  public:
-  /// Looks the keys up. @returns kUsage error for a key that does not exist, is no number, is named
-  /// twice, or whose range is empty or not inside that of the setting
+  /// Finds the settings of the parameters.
+  /// @returns kUsage error if a key does not exist, is not a number or is given twice, or if its
+  ///          range is empty or not inside the range of the setting
   static Expected<ParameterSet> create(std::vector<Parameter> parameters);
 
   std::size_t size() const noexcept { return parameters_.size(); }
   const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
   const Parameter& operator[](std::size_t i) const noexcept { return parameters_[i]; }
 
-  /// Values of the machine, in the keys' units.
+  /// Values that the parameters have in a machine, in the keys' units.
   std::vector<double> values(const config::MachineFile& machine) const;
-  /// The machine with other values, in the keys' units, each limited to its setting's range.
+  /// Returns the machine with other values of the parameters, in the keys' units, each clamped to
+  /// the range of its setting.
   config::MachineFile with_values(const config::MachineFile& machine,
                                   std::span<const double> values) const;
 
-  /// The same on [0, 1], limited to the parameters' ranges.
+  /// The same two functions with values mapped to [0, 1] and clamped to the range of the parameter.
   std::vector<double> units(const config::MachineFile& machine) const;
   config::MachineFile with_units(const config::MachineFile& machine,
                                  std::span<const double> units) const;

@@ -12,9 +12,9 @@
 
 namespace twin::studies::reproduce {
 
-/// How to fit a machine to the published tables.
+/// Options of a fit to the published tables.
 struct TableFitOptions {
-  std::size_t evaluations = 1700;  ///< of the cost; each runs every row two or three times
+  std::size_t evaluations = 1700;  ///< how often the cost is computed, with 2 or 3 runs of each row
   std::uint32_t seed = 1;
   const std::atomic<bool>* stop = nullptr;       ///< set to end early with the best so far
   std::function<void(double, double)> progress;  ///< gets the done share and the least cost
@@ -25,43 +25,47 @@ struct FittedValue {
   std::string key;
   double before = 0.0;
   double after = 0.0;
-  double rise = 0.0;  ///< of the cost when the parameter is moved by a tenth of its range, the
-                      ///< lesser of both ways
-  bool is_at_bound = false;  ///< of the range that was searched
+  double rise = 0.0;  ///< rise of the cost if the parameter is moved by a tenth of its range, the
+                      ///< smaller one of both directions
+  bool is_at_bound = false;  ///< whether the value is at an end of the range that was searched
 };
 
-/// What a fit to the tables found.
+/// Result of a fit to the published tables.
 struct TableFit {
   config::MachineFile machine;
   double cost_before = 0.0;
   double cost_after = 0.0;
-  double time_error = 0.0;  ///< RMS of machining time / published - 1 [-]
+  double time_error = 0.0;  ///< RMS over all rows of machining time / published one - 1 [-]
   std::vector<FittedValue> values;
   bool was_stopped = false;
 };
 
-/// Cost of a number that should be `published`: with e = ln(ours / published)
-///   e^2 / (2 (e^2 + 0.15^2)) + e^2 / (2 (e^2 + 0.28^2)) + e^2 / 20,
-/// so that a number that cannot be reached costs about 1 and does not pull the others along.
+/// Cost of the difference between our number and the published one. With e = ln(ours / published)
+/// it is
+///   e^2 / (2 (e^2 + 0.15^2)) + e^2 / (2 (e^2 + 0.28^2)) + e^2 / 20.
+/// The first two terms saturate, so a number that cannot be reached costs about 1 and hardly
+/// affects the fit of the others.
 double smooth_cost(double ours, double published);
 
-/// Cost of a number by the shares in which numbers are counted: with d = |ours / published - 1| and
-/// S the logistic function
+/// Cost that follows how the comparison counts numbers: those within 20 % and within 30 % of the
+/// published ones. With d = |ours / published - 1| and the logistic function S it is
 ///   S((d - 0.19) / 0.02) + 0.8 S((d - 0.285) / 0.02) + smooth_cost / 4.
 double share_cost(double ours, double published);
 
-/// One set of parameters of the table and of the servo for all measured rows of the published
-/// tables.
+/// Finds one set of parameters of table and servo for all measured rows of the published tables.
 ///
-/// First the planning model: Kp / (1 - Kf) stays as it is (Eq. 1 with Table 2 gives it), and Kf is
-/// chosen so that the machining times fit best. Then the table: the rows, each with its own
-/// variants of the method, are run on studies::identify::TableRun, and CMA-ES looks for the least sum over
-/// the errors of all rows, in two stages:
-///   smooth_cost of the mean of two runs, from the start far and wide;
-///   share_cost of the mean of three runs, and 0.4 of that of the first one, near what was found.
-/// The runs of a row have the phases of with_phases_of_repeat, the first one those of the machine.
+/// First the planning model is fitted. Kp / (1 - Kf) stays as it is, since Eq. 1 with Table 2 gives
+/// it, and Kf is chosen so that the machining times fit best. Then the table is fitted: each row is
+/// run with the method that it was measured with, on studies::identify::TableRun, and CMA-ES
+/// searches for the smallest sum of the costs of all rows, in two stages:
+///   1. smooth_cost of the mean of two runs, in a wide range around the start;
+///   2. share_cost of the mean of three runs, plus 0.4 times that of the first run, near the
+///      result of the first stage.
+/// The runs of a row differ by the phases of with_phases_of_repeat(); the first run has the phases
+/// of the machine file.
 ///
-/// Masses and lead are held: the tables do not identify them, nor much else (FittedValue::rise).
+/// Masses and screw lead are not fitted, because the tables do not determine them.
+/// FittedValue::rise shows how little they determine other parameters.
 Expected<TableFit> fit_tables(const Published& published, const config::MachineFile& start,
                               const TableFitOptions& options);
 
