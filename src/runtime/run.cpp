@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "config/settings.hpp"
+#include "config/machine_file.hpp"
 #include "core/atomic_file.hpp"
 #include "core/sha256.hpp"
 #include "core/version.hpp"
