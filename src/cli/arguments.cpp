@@ -1,12 +1,16 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
 #include "cli/options.hpp"
-#include "cli/usage.hpp"
+#include "config/nearest_name.hpp"
 #include "core/version.hpp"
 
 namespace twin::cli {
@@ -39,6 +43,60 @@ class HelpFormatter : public CLI::Formatter {
            wrapped(text, kTextColumn, kTextColumn, kColumns) + "\n";
   }
 };
+
+/// Names that may stand in a command line after a command.
+struct CommandNames {
+  std::string name;
+  std::vector<std::string> options;    ///< "--help", "-h"
+  std::vector<CommandNames> commands;  ///< below it
+};
+
+/// What is wrong with the names in a command line; empty where nothing is. It looks into the
+/// commands below: `twin rig probe`.
+///
+/// @param names  of the program
+/// @param words  the command line without the program's name
+std::string explain(const CommandNames& names, std::span<const char* const> words);
+
+bool is_option(std::string_view word) { return word.size() > 1 && word[0] == '-'; }
+
+/// The first option that a command does not have; empty if there is none.
+std::string unknown_option(const CommandNames& command, std::span<const char* const> words) {
+  for (const std::string_view word : words) {
+    const std::string_view name = word.substr(0, word.find('='));
+    if (word == "--") {
+      break;
+    }
+    if (is_option(word) && std::ranges::find(command.options, name) == command.options.end()) {
+      return fmt::format("unknown option {}{}", name, config::did_you_mean(name, command.options));
+    }
+  }
+  return {};
+}
+
+/// Explains the command line of a command that has others below it, of which one must follow.
+std::string explain_choice(const CommandNames& command, std::span<const char* const> words) {
+  std::vector<std::string> names;
+  std::ranges::transform(command.commands, std::back_inserter(names), &CommandNames::name);
+  if (words.empty()) {
+    return command.name.empty()
+               ? std::string()
+               : fmt::format("{} wants a command: {}", command.name, fmt::join(names, ", "));
+  }
+  const std::string_view first = words[0];
+  if (is_option(first)) {
+    return unknown_option(command, words.first(1));
+  }
+  const auto chosen = std::ranges::find(command.commands, first, &CommandNames::name);
+  if (chosen == command.commands.end()) {
+    return fmt::format("unknown command {}{}", first, config::did_you_mean(first, names));
+  }
+  return explain(*chosen, words.subspan(1));
+}
+
+std::string explain(const CommandNames& names, std::span<const char* const> words) {
+  return names.commands.empty() ? unknown_option(names, words) : explain_choice(names, words);
+}
 
 /// The parser of one command line. Only the command that is chosen gets its options.
 class ArgumentParser {

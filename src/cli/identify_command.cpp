@@ -7,11 +7,10 @@
 #include "cli/machines.hpp"
 #include "core/atomic_file.hpp"
 #include "session/results.hpp"
+#include "studies/identify/candidates.hpp"
 #include "studies/identify/identification_report.hpp"
 #include "studies/identify/identify.hpp"
-#include "studies/identify/keys.hpp"
 #include "studies/reproduce/table_fit.hpp"
-#include "studies/reproduce/table_fit_report.hpp"
 
 namespace twin::cli {
 namespace {

@@ -1,11 +1,76 @@
 #include "cli/machines.hpp"
 
-#include <memory>
+#include <fmt/format.h>
+#include <unistd.h>
 
-#include "cli/rigs.hpp"
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "cli/terminal.hpp"
+#include "core/atomic_file.hpp"
+#include "hal/rig/assemble/look.hpp"
+#include "hal/rig/assemble/make_rig.hpp"
+#include "hal/rig/boards/shared_registers.hpp"
+#include "session/machine.hpp"
 
 namespace twin::cli {
 namespace {
+
+namespace rig = hal::rig;
+using rig::assemble::RigKind;
+
+/// Lets a real machine move only when the user knows it: with --i-know-it-moves, or with a word
+/// typed at a terminal.
+Expected<void> confirm_motion(const hal::MachineInfo& machine, session::Consent consent,
+                              const std::string& purpose) {
+  if (!session::needs_consent(machine, consent)) {
+    return {};
+  }
+  if (isatty(STDIN_FILENO) != 1) {
+    return fail(ErrorCode::kUsage, "machine '" + machine.name +
+                                       "' is real and would move; say so with --i-know-it-moves, "
+                                       "or start it at a terminal and confirm there");
+  }
+  fmt::print("This is a REAL machine. {} will move it. Type move to go on: ", purpose);
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  if (answer != "move") {
+    return fail(ErrorCode::kInterrupted, "not confirmed: nothing has moved");
+  }
+  return {};
+}
+
+/// The guard stands beside the program.
+std::filesystem::path guard_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "twin-guard";
+}
+
+/// Writes what happened at the emulated boards, when all is over.
+void write_event_log(rig::emulator::EmulatedRig& emulated, const std::filesystem::path& file) {
+  if (auto written = write_whole_file(file, emulated.report()); !written) {
+    print_error(written.error());
+  }
+}
+
+Expected<RigKind> find_rig(const RigArguments& arguments, const config::MachineFile& machine) {
+  return rig::assemble::find_rig(arguments.which, machine.rig, shared_name(arguments));
+}
+
+/// What a rig is put together from, without guard, faults and log.
+rig::assemble::RigSetup setup_of(const RigArguments& arguments,
+                                 const config::MachineFile& machine) {
+  return {.table = machine.table,
+          .wiring = machine.rig,
+          .heartbeat_timeout = machine.safety.heartbeat_timeout,
+          .guard_program = {},
+          .shared_name = shared_name(arguments),
+          .faults = {},
+          .at_end = {}};
+}
 
 /// The options of the rig are refused where they would be ignored.
 Expected<void> check_rig_is_meant(const HalArguments& arguments) {
@@ -19,6 +84,51 @@ Expected<void> check_rig_is_meant(const HalArguments& arguments) {
 }
 
 }  // namespace
+
+std::string shared_name(const RigArguments& arguments) {
+  return arguments.name.empty() ? rig::boards::default_shared_name() : arguments.name;
+}
+
+Expected<std::unique_ptr<rig::RigMachine>> open_rig(const RigArguments& arguments,
+                                                    const config::MachineFile& machine,
+                                                    const std::string& purpose) {
+  TWIN_TRY(const RigKind kind, find_rig(arguments, machine));
+  if (kind != RigKind::kEmulated && (!arguments.faults.empty() || !arguments.log.empty())) {
+    return fail(ErrorCode::kUsage,
+                fmt::format("--fault and --rig-log are for --rig emulated, and this rig is: {}; an "
+                            "emulator's process takes --fault by itself",
+                            describe(kind)));
+  }
+  rig::assemble::RigSetup setup = setup_of(arguments, machine);
+  if (kind != RigKind::kEmulated) {
+    setup.guard_program = guard_program();
+  }
+  for (const std::string& text : arguments.faults) {
+    TWIN_TRY(const rig::emulator::Fault fault, rig::emulator::parse_fault(text));
+    setup.faults.push_back(fault);
+  }
+  if (!arguments.log.empty()) {
+    setup.at_end = [log = arguments.log](rig::emulator::EmulatedRig& emulated) {
+      write_event_log(emulated, log);
+    };
+  }
+  TWIN_TRY(std::unique_ptr<rig::RigMachine> opened,
+           rig::assemble::make_rig(kind, std::move(setup)));
+  const auto consent =
+      arguments.is_known_to_move ? session::Consent::kGiven : session::Consent::kNotAsked;
+  TWIN_CHECK(confirm_motion(opened->info(), consent, purpose));
+  return opened;
+}
+
+Expected<RigToLookAt> open_to_look(const RigArguments& arguments, config::MachineFile machine) {
+  RigToLookAt seen;
+  TWIN_TRY(seen.kind, find_rig(arguments, machine));
+  seen.settings = rig::assemble::wiring_to_look_with(seen.kind, machine.rig);
+  TWIN_TRY(seen.ports,
+           rig::assemble::open_to_look(seen.kind, setup_of(arguments, machine), machine.period));
+  seen.machine = std::move(machine);
+  return seen;
+}
 
 Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Verbosity verbosity) {
   session::MachineSource source{arguments.file, arguments.settings};

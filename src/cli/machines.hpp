@@ -1,14 +1,18 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "hal/rig/assemble/find_rig.hpp"
+#include "hal/rig/assemble/rig_ports.hpp"
+#include "hal/rig/rig_machine.hpp"
 #include "hal/signals.hpp"
 #include "session/machine.hpp"
 
-/// From the options of a command to machine file and machine.
+/// From the options of a command to machine file, machine and rig.
 namespace twin::cli {
 
 /// The machine file with the settings of the command line. What the reader notes of it is printed
@@ -20,5 +24,26 @@ session::MakeMachine machine_of(const HalArguments& arguments);
 
 /// "x" or "y" as an axis.
 hal::Axis axis_of(const std::string& name);
+
+/// Name of the shared memory of an emulator's process: that of --rig-name, or the user's own.
+std::string shared_name(const RigArguments& arguments);
+
+/// The rig of --rig put together, and confirmed by the user if it is real.
+///
+/// @param purpose  what it is about to do, as in "run dolphin.nc"
+Expected<std::unique_ptr<hal::rig::RigMachine>> open_rig(const RigArguments& arguments,
+                                                         const config::MachineFile& machine,
+                                                         const std::string& purpose);
+
+/// A rig that is only looked at.
+struct RigToLookAt {
+  config::MachineFile machine;
+  hal::rig::assemble::RigKind kind = hal::rig::assemble::RigKind::kEmulated;
+  hal::rig::RigSettings settings;  ///< wires; emulated cards always read V-REF back
+  hal::rig::assemble::RigPorts ports;
+};
+
+/// Opens the registers of the rig without writing to them.
+Expected<RigToLookAt> open_to_look(const RigArguments& arguments, config::MachineFile machine);
 
 }  // namespace twin::cli

@@ -66,9 +66,6 @@ std::vector<Binding> table_bindings(hal::mujoco::TableParams& table);
 /// The part of bindings() that is about monitors and wall clock: [safety], [realtime].
 std::vector<Binding> safety_bindings(MachineFile& machine);
 
-/// The part of bindings() that is about homing.
-std::vector<Binding> home_bindings(MachineFile& machine);
-
 /// The part of bindings() that is about the real rig.
 std::vector<Binding> rig_bindings(hal::rig::RigSettings& rig);
 

@@ -93,6 +93,17 @@ void add_servo(List& list, const std::string& section, motion::Gains& g) {
                   "added to the drive command against its offset"});
 }
 
+void add_home(List& list, const std::string& section, HomeSettings& home) {
+  list.push_back({section, "switch", "", choice(home.is_positive, {"n-ot", "p-ot"}), 0.0, 0.0,
+                  "limit switch that is sought"});
+  list.push_back({section, "seek_feedrate", "mm_per_min", &home.seek_feedrate, 1.0, 6000.0,
+                  "towards the switch, and to zero afterwards", kPerMinute});
+  list.push_back({section, "index_feedrate", "mm_per_min", &home.index_feedrate, 1.0, 600.0,
+                  "off the switch and to the index", kPerMinute});
+  list.push_back(
+      {section, "zero", "mm", &home.zero, -1e4, 1e4, "from the index to the axis' zero, signed"});
+}
+
 }  // namespace
 
 std::vector<Binding> bindings(MachineFile& machine) {
@@ -103,10 +114,12 @@ std::vector<Binding> bindings(MachineFile& machine) {
   add_interpolator(list, machine.interpolation, machine.period);
   add_servo(list, "servo.x", machine.servo[hal::kX]);
   add_servo(list, "servo.y", machine.servo[hal::kY]);
-  for (List part : {safety_bindings(machine), table_bindings(machine.table),
-                    rig_bindings(machine.rig), home_bindings(machine)}) {
+  for (List part :
+       {safety_bindings(machine), table_bindings(machine.table), rig_bindings(machine.rig)}) {
     std::ranges::move(part, std::back_inserter(list));
   }
+  add_home(list, "home.x", machine.home[hal::kX]);
+  add_home(list, "home.y", machine.home[hal::kY]);
   return list;
 }
 

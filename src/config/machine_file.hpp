@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "config/home_settings.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "core/realtime_settings.hpp"
+#include "core/setting.hpp"
 #include "hal/mujoco/table_params.hpp"
 #include "hal/rig/rig_settings.hpp"
 #include "hal/signals.hpp"
@@ -22,6 +22,14 @@
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
 namespace twin::config {
+
+/// Where an axis has its home, section [home.x] of the machine file.
+struct HomeSettings {
+  bool is_positive = false;     ///< home switch is P-OT; else N-OT
+  double seek_feedrate = 10.0;  ///< towards the switch, and to zero afterwards [mm/s]
+  double index_feedrate = 1.0;  ///< off the switch and to the index [mm/s]
+  double zero = 0.0;            ///< from the index to the axis' zero, signed [mm]
+};
 
 /// Everything a machine file says, in base units.
 struct MachineFile {
@@ -58,6 +66,15 @@ Expected<MachineFile> read_machine_file(const std::filesystem::path& file,
 Expected<MachineFile> parse_machine_file(std::string_view text, const std::filesystem::path& file,
                                          std::span<const std::string> overrides = {});
 
+/// Applies one `section.key=value`, as --set takes it.
+///
+/// The value is what would stand in the file; a text needs no quotes. Errors are kUsage and name
+/// the nearest key.
+Expected<void> apply_override(MachineFile& machine, std::string_view text);
+
+/// Applies several in order, then checks what they say together.
+Expected<void> apply_overrides(MachineFile& machine, std::span<const std::string> texts);
+
 /// All settings as the text of a machine file: sections, keys with units, what each means and its
 /// range.
 ///
@@ -65,5 +82,8 @@ Expected<MachineFile> parse_machine_file(std::string_view text, const std::files
 /// @param comment  replaces the comment of a key ("table.x.moving_mass_kg") where it returns one
 std::string to_toml(const MachineFile& machine,
                     const std::function<std::string(const std::string&)>& comment = {});
+
+/// All settings of a machine as values, in the order and the units of to_toml().
+std::vector<Setting> settings_of(const MachineFile& machine);
 
 }  // namespace twin::config

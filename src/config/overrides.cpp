@@ -1,4 +1,4 @@
-#include "config/overrides.hpp"
+#include "config/machine_file.hpp"
 
 #include <set>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "config/binding.hpp"
 #include "config/nearest_name.hpp"
 #include "config/rules.hpp"
-#include "config/toml_value.hpp"
+#include "config/toml_file.hpp"
 
 namespace twin::config {
 namespace {

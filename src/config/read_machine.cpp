@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "config/binding.hpp"
 #include "config/machine_file.hpp"
 #include "config/nearest_name.hpp"
-#include "config/overrides.hpp"
-#include "config/read_text.hpp"
 #include "config/rules.hpp"
-#include "config/toml_value.hpp"
+#include "config/toml_file.hpp"
 
 namespace twin::config {
 namespace {
@@ -48,7 +47,8 @@ class Reader {
                           const toml::node& node, const toml::source_region& place) {
     const Binding* binding = find_binding(list_, section, name);
     if (binding == nullptr) {
-      return at(place, unknown(section, name, node.is_table()));
+      return at(place,
+                node.is_table() ? unknown_section(section, name) : unknown_key(section, name));
     }
     if (!seen_.insert(binding->path()).second) {
       return at(place, binding->path() + " is given twice, under two of its names");
@@ -64,22 +64,24 @@ class Reader {
     return {};
   }
 
-  std::string unknown(const std::string& section, const std::string& name, bool is_table) const {
+  std::string unknown_section(const std::string& section, const std::string& name) const {
+    std::vector<std::string> names;
+    std::ranges::transform(list_, std::back_inserter(names), &Binding::section);
+    const std::string path = joined(section, name);
+    return "unknown section [" + path + "]" + did_you_mean(path, names);
+  }
+
+  std::string unknown_key(const std::string& section, const std::string& name) const {
+    if (section.empty()) {
+      return "unknown key " + name + " outside of any section";
+    }
     std::vector<std::string> names;
     for (const Binding& b : list_) {
-      if (is_table || section.empty()) {
-        names.push_back(b.section);
-      } else if (b.section == section) {
+      if (b.section == section) {
         names.push_back(b.key());
       }
     }
-    if (is_table) {
-      const std::string path = joined(section, name);
-      return "unknown section [" + path + "]" + did_you_mean(path, names);
-    }
-    return section.empty()
-               ? "unknown key " + name + " outside of any section"
-               : "unknown key " + name + " in [" + section + "]" + did_you_mean(name, names);
+    return "unknown key " + name + " in [" + section + "]" + did_you_mean(name, names);
   }
 
   tl::unexpected<Error> at(const toml::source_region& place, std::string message) const {

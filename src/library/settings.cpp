@@ -6,8 +6,8 @@
 
 #include "config/binding.hpp"
 #include "config/find_file.hpp"
+#include "config/machine_file.hpp"
 #include "config/nearest_name.hpp"
-#include "config/overrides.hpp"
 #include "library/inside.hpp"
 
 namespace twin {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "config/settings.hpp"
+#include "config/machine_file.hpp"
 #include "core/atomic_file.hpp"
 #include "core/version.hpp"
 #include "hal/active_machine.hpp"

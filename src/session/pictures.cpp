@@ -1,13 +1,123 @@
 #include "session/pictures.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
+#include "core/vec.hpp"
+#include "gcode/programmed_curve.hpp"
+#include "gcode/reader.hpp"
 #include "pictures/plot/figures.hpp"
 #include "pictures/video/video.hpp"
-#include "session/programmed_outline.hpp"
+#include "results/metrics/block_distance.hpp"
+#include "results/trace/pen.hpp"
 
 namespace twin::session {
+namespace {
+
+constexpr double kChordAngle = 0.02;  // of an arc [rad]
+
+/// Polyline of bounded size: when it is full, every other point goes, and of those to come as many.
+class ThinnedOutline {
+ public:
+  void add(const Vec2& point) {
+    last_ = point;
+    if (count_++ % stride_ != 0) {
+      return;
+    }
+    points_.push_back(point);
+    if (points_.size() >= kMostPoints) {
+      for (std::size_t i = 0; 2 * i < points_.size(); ++i) {
+        points_[i] = points_[2 * i];
+      }
+      points_.resize((points_.size() + 1) / 2);
+      stride_ *= 2;
+    }
+  }
+
+  /// The next point is not joined to the last one.
+  void lift() {
+    if (!points_.empty()) {
+      points_.push_back(last_);
+      points_.emplace_back(Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
+      count_ = 0;
+    }
+  }
+
+  std::vector<Vec2> finish() {
+    if (!points_.empty()) {
+      points_.push_back(last_);
+    }
+    return std::move(points_);
+  }
+
+ private:
+  static constexpr std::size_t kMostPoints = 200000;
+
+  std::vector<Vec2> points_;
+  Vec2 last_ = Vec2::Zero();
+  std::size_t count_ = 0;
+  std::size_t stride_ = 1;
+};
+
+/// Everything of a block but its start.
+void add_block(const gcode::Block& block, ThinnedOutline& outline) {
+  if (block.motion == gcode::Motion::kNurbs) {
+    for (const geometry::CurvatureSample& sample : block.nurbs->samples) {
+      outline.add(block.nurbs->curve.position(sample.u).head<2>());
+    }
+    return;
+  }
+  const int pieces = block.motion == gcode::Motion::kArc
+                         ? static_cast<int>(std::ceil(block.arc.sweep / kChordAngle))
+                         : 1;
+  for (int i = 1; i <= pieces; ++i) {
+    outline.add(results::point_at(block, static_cast<double>(i) / pieces).head<2>());
+  }
+}
+
+/// What becomes of moves with the pen up.
+enum class Lifted { kLeftOut, kDrawn };
+
+std::vector<Vec2> read_outline(const std::filesystem::path& program, Lifted lifted) {
+  ThinnedOutline outline;
+  gcode::ReaderOptions options;
+  options.feedrate = 1.0;  // the outline does not depend on it
+  auto reader = program.empty() ? fail(ErrorCode::kFile, "no program")
+                                : gcode::Reader::open(program.string(), options);
+  bool is_apart = true;  // the next block does not continue what is drawn
+  while (reader) {
+    auto next = reader->next();
+    if (!next || !next->has_value()) {
+      break;
+    }
+    const gcode::Block& block = **next;
+    if (lifted == Lifted::kLeftOut && std::min(block.start.z(), block.end.z()) > results::kPenUp) {
+      is_apart = true;
+      continue;
+    }
+    if (is_apart) {
+      outline.lift();
+      outline.add(block.start.head<2>());
+      is_apart = false;
+    }
+    add_block(block, outline);
+  }
+  return outline.finish();
+}
+
+/// Programmed path seen along Z, arcs as chords of a degree, moves with the pen up
+/// left out (a point that is not a number lifts the line) [mm]; thinned on long programs.
+std::vector<Vec2> programmed_outline(const std::filesystem::path& program) {
+  std::vector<Vec2> outline = read_outline(program, Lifted::kLeftOut);
+  return outline.empty() ? read_outline(program, Lifted::kDrawn) : outline;
+}
+
+}  // namespace
 
 Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
   const auto file = folder / "summary.json";

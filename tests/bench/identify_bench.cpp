@@ -5,7 +5,7 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/cycle.hpp"
 #include "studies/identify/axis_model.hpp"
-#include "studies/identify/set_points.hpp"
+#include "studies/identify/table_run.hpp"
 
 /// Cost of a simulated physics step: one axis without MuJoCo, beside the whole table with it.
 namespace twin::studies::identify {

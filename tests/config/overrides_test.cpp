@@ -1,4 +1,4 @@
-#include "config/overrides.hpp"
+#include "config/machine_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,13 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/vec.hpp"
 
 /// Circular test after ISO 230-4: program, evaluation of both senses, report.
 namespace twin::studies::circular {
@@ -28,5 +33,17 @@ inline constexpr int kMeasuredLine = 7;
 /// @param radius    [mm]
 /// @param feedrate  [mm/s]
 std::string circle_program(double radius, double feedrate, Sense sense);
+
+/// The measured turn of one sense.
+struct MeasuredTurn {
+  std::vector<Vec2> table;    ///< true position, what a ballbar sees [mm]
+  std::vector<Vec2> encoder;  ///< what the controller sees [mm]
+  double feedrate = 0.0;      ///< mean of the set points' [mm/s]
+};
+
+/// Reads the rows of the measured turn from the trace of a program of circle_program().
+///
+/// @returns an Error if the trace has fewer than 60 of them
+Expected<MeasuredTurn> read_measured_turn(const std::filesystem::path& trace);
 
 }  // namespace twin::studies::circular

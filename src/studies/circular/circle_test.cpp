@@ -14,7 +14,6 @@
 #include "session/session.hpp"
 #include "studies/circular/deviations.hpp"
 #include "studies/circular/reversal_spikes.hpp"
-#include "studies/circular/servo_prediction.hpp"
 
 namespace twin::studies::circular {
 namespace {

@@ -11,7 +11,6 @@
 #include "session/machine.hpp"
 #include "studies/circular/circle_program.hpp"
 #include "studies/circular/circular_report.hpp"
-#include "studies/circular/measured_turn.hpp"
 
 namespace twin::studies::circular {
 

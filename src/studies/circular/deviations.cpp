@@ -1,5 +1,7 @@
 #include "studies/circular/deviations.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,6 +47,22 @@ Deviations evaluate(const BothPaths& paths, double radius) {
   result.hysteresis =
       std::max(largest_difference(first, second), largest_difference(second, first));
   return result;
+}
+
+Expected<double> predicted_radial_deviation(const std::array<motion::Gains, 2>& gains,
+                                            double radius, double feedrate) {
+  const double w = feedrate / radius;
+  double sum = 0.0;
+  for (std::size_t axis = 0; axis < gains.size(); ++axis) {
+    const motion::Gains& g = gains[axis];
+    if (g.ka != 0.0 || g.kd != 0.0) {
+      return fail(ErrorCode::kMachine,
+                  fmt::format("Eq. 3 has no {}, and servo.{} has", g.ka != 0.0 ? "Ka" : "Kd",
+                              axis == 0 ? 'x' : 'y'));
+    }
+    sum += std::sqrt((g.kf * g.kf * w * w + g.kp * g.kp) / (w * w + g.kp * g.kp)) - 1.0;
+  }
+  return radius * sum / static_cast<double>(gains.size());
 }
 
 }  // namespace twin::studies::circular

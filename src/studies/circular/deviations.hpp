@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/vec.hpp"
+#include "motion/servo/gains.hpp"
 #include "studies/circular/circle_fit.hpp"
 #include "studies/circular/circle_program.hpp"
 
@@ -34,5 +36,18 @@ struct Deviations {
 
 /// @param radius  of the nominal circle about (0, 0) [mm]
 Deviations evaluate(const BothPaths& paths, double radius);
+
+/// Mean radial deviation that the servo's gains predict, -eps of
+///   eps / r = 1 - sqrt((Kf^2 w^2 + Kp^2) / (w^2 + Kp^2)),   w = v / r    [WY09, Eq. 3]
+/// as the mean over both axes.
+///
+/// Eq. 3 assumes a drive without lag; it leaves out sampling, friction, Kd and Ka.
+///
+/// @param gains     of x and y
+/// @param radius    r [mm]
+/// @param feedrate  v [mm/s]
+/// @returns [mm], or an Error that says which gain Eq. 3 does not know
+Expected<double> predicted_radial_deviation(const std::array<motion::Gains, 2>& gains,
+                                            double radius, double feedrate);
 
 }  // namespace twin::studies::circular

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "config/home_settings.hpp"
+#include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "hal/signals.hpp"
 

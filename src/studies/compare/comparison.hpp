@@ -63,4 +63,13 @@ struct Comparison {
 /// lower bound of its time.
 Expected<Comparison> compare(const Request& request);
 
+/// A job of a request: its machine file with its settings and further ones.
+Expected<studies::jobs::Job> job_of(const Request& request, const std::filesystem::path& program,
+                                    const std::string& name,
+                                    const std::vector<std::string>& settings);
+
+/// Wall-clock time of planning a job's program alone, from reading it to the last planned segment
+/// [s]. It is the best of three, because other programs use the cores too.
+Expected<double> planning_time(const studies::jobs::Job& job);
+
 }  // namespace twin::studies::compare

@@ -9,7 +9,6 @@
 #include "pictures/figure/value_range.hpp"
 #include "results/trace/columns.hpp"
 #include "studies/compare/error_curves.hpp"
-#include "studies/compare/planner_picture.hpp"
 
 namespace twin::studies::compare {
 namespace {

@@ -20,4 +20,9 @@ namespace twin::studies::compare {
 Expected<std::vector<pictures::Picture>> draw_figures(const Comparison& comparison,
                                                       const std::filesystem::path& folder);
 
+/// Adds the figure `planners` to an album. It shows the feedrate of each planner along the path
+/// below that of its lower bound, for the whole path and where most time is lost, and the time that
+/// every contestant has lost to its bound up to each point of the path.
+Expected<void> add_planner_figure(pictures::Album& album, const Comparison& comparison);
+
 }  // namespace twin::studies::compare

@@ -1,4 +1,4 @@
-#include "studies/compare/planner_picture.hpp"
+#include "studies/compare/comparison_pictures.hpp"
 
 #include <fmt/format.h>
 

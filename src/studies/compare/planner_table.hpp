@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/limits.hpp"
 #include "core/text_table.hpp"
 #include "pictures/figure/workshop.hpp"
+#include "results/metrics/limit_audit.hpp"
 #include "studies/compare/comparison.hpp"
 
 namespace twin::studies::compare {
@@ -33,5 +35,12 @@ TextTable grid_of_planners(const std::vector<PlannerRow>& rows);
 /// Writes planners.md, planners.csv and planners.json; all of them or none.
 Expected<void> write_planner_table(const std::vector<PlannerRow>& rows,
                                    const pictures::Workshop& workshop);
+
+/// Whether the peaks of a trajectory keep the limits: "kept", or the worst one with its share, as
+/// in "jerk 1.83".
+///
+/// Along the path the audit knows acceleration and jerk only up to 5 % (see LimitAudit); an excess
+/// below that counts as kept. For the feedrate and for the axes it is 0.1 %.
+std::string audit_verdict(const results::AuditPeaks& peaks, const Limits& limits);
 
 }  // namespace twin::studies::compare

@@ -67,4 +67,11 @@ std::unique_ptr<Dialect> make_dialect(std::string_view name);
 /// An error of a curve, at its NC line.
 tl::unexpected<Error> refuse_curve(const CurveRequest& request, std::string message);
 
+/// A number in the fewest digits with at most so many decimals: "1.25", "-3", "0"; never an
+/// exponent, never "-0".
+std::string number(double value, int decimals);
+
+/// The value that number() writes.
+double rounded(double value, int decimals);
+
 }  // namespace twin::studies::convert

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "studies/convert/coordinate_text.hpp"
+#include "studies/convert/dialect.hpp"
 
 namespace twin::studies::convert {
 namespace {

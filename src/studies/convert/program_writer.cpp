@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/units.hpp"
-#include "studies/convert/coordinate_text.hpp"
+#include "studies/convert/dialect.hpp"
 
 namespace twin::studies::convert {
 namespace {

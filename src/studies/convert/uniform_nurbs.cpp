@@ -8,7 +8,7 @@
 #include "geometry/nurbs/deviation.hpp"
 #include "geometry/nurbs/fit.hpp"
 #include "geometry/nurbs/refine.hpp"
-#include "studies/convert/coordinate_text.hpp"
+#include "studies/convert/dialect.hpp"
 #include "studies/convert/uniform_refit.hpp"
 
 namespace twin::studies::convert {

@@ -10,7 +10,6 @@
 
 #include "studies/identify/axis_problem.hpp"
 #include "studies/identify/candidates.hpp"
-#include "studies/identify/gain_fit.hpp"
 
 namespace twin::studies::identify {
 

@@ -258,7 +258,7 @@ void AxisFitter::estimate_hum() {
     }
   }
   hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
-  if (direct_hum(problem_, current_)) {
+  if (direct_hum(problem_, current_) == Hum::kFound) {
     Parameter& frequency = hum[1]->candidate.parameter;
     const double range =
         kHumRange /

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
+#include "core/error.hpp"
 #include "studies/identify/parameter.hpp"
 
 namespace twin::studies::identify {
@@ -25,5 +26,14 @@ std::string table_section(hal::Axis axis);
 /// What can be fitted of an axis, in the order in which it is reported.
 /// @param machine  where the search starts; widens ranges that would leave it out
 std::vector<Candidate> axis_candidates(const config::MachineFile& machine, hal::Axis axis);
+
+/// Full keys of parameters that a trace can be fitted for: "table.x.moving_mass" is
+/// "table.x.moving_mass_kg".
+///
+/// @param names    as a user gives them, with or without the unit
+/// @param machine  whose parameters they are
+/// @returns the keys in the order of the names, or a kUsage error that says what was meant
+Expected<std::vector<std::string>> full_keys(const std::vector<std::string>& names,
+                                             const config::MachineFile& machine);
 
 }  // namespace twin::studies::identify

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <vector>
 
 #include "studies/identify/parallel_for.hpp"
 
@@ -32,6 +34,32 @@ double take_line(Eigen::VectorXd& values) {
 
 std::span<const double> view(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+constexpr double kStandsOut = 8.0;  // times the median amplitude
+constexpr double kPi = std::numbers::pi;
+
+/// Windowed Fourier coefficient at a frequency, scaled so that a tone gives a exp(i phi) / i.
+std::complex<double> coefficient(std::span<const double> signal, double period, double frequency) {
+  const auto n = static_cast<double>(signal.size());
+  const std::complex<double> turn = std::polar(1.0, -2.0 * kPi * frequency * period);
+  const std::complex<double> window_turn = std::polar(1.0, 2.0 * kPi / n);
+  std::complex<double> rotation = 1.0;
+  std::complex<double> window = window_turn;
+  std::complex<double> sum = 0.0;
+  double weight = 0.0;
+  for (const double value : signal) {
+    const double w = 0.5 - 0.5 * window.real();
+    sum += w * value * rotation;
+    weight += w;
+    rotation *= turn;
+    window *= window_turn;
+  }
+  return 2.0 * sum / weight;
+}
+
+double amplitude(std::span<const double> signal, double period, double frequency) {
+  return std::abs(coefficient(signal, period, frequency));
 }
 
 }  // namespace
@@ -73,7 +101,7 @@ double direct_offset(const AxisProblem& problem, const config::MachineFile& mach
   return rate / weight / machine.table.axis[problem.axis()].mm_per_s_per_volt();
 }
 
-bool direct_hum(AxisProblem& problem, config::MachineFile& machine) {
+Hum direct_hum(AxisProblem& problem, config::MachineFile& machine) {
   hal::mujoco::DriveParams& drive = machine.table.axis[problem.axis()].drive;
   drive.hum_amplitude = 0.0;
   const double highest = std::min(kHighestHum, kNyquistShare / machine.period);
@@ -89,7 +117,7 @@ bool direct_hum(AxisProblem& problem, config::MachineFile& machine) {
       const auto tone = strongest_tone(rows.first(std::min(rows.size(), kSearchRows)),
                                        machine.period, kLowestHum, highest);
       if (!tone) {
-        return false;
+        return Hum::kNone;
       }
       first = tone_at(rows, machine.period, tone->frequency);
     }
@@ -104,7 +132,7 @@ bool direct_hum(AxisProblem& problem, config::MachineFile& machine) {
     }
     problem.hum_phase()[i] = i == 0 ? 0.0 : std::remainder(phase - drive.hum_phase, kTwoPi);
   }
-  return true;
+  return Hum::kFound;
 }
 
 void align_hum(AxisProblem& problem) {
@@ -124,6 +152,41 @@ void align_hum(AxisProblem& problem) {
     }
     problem.hum_phase()[record] = std::remainder(best, kTwoPi);
   }
+}
+
+Tone tone_at(std::span<const double> signal, double period, double frequency) {
+  const std::complex<double> c = coefficient(signal, period, frequency);
+  // a sin(wt + phi) has the coefficient a exp(i (phi - pi / 2)).
+  return {frequency, std::abs(c), std::remainder(std::arg(c) + kPi / 2.0, 2.0 * kPi)};
+}
+
+std::optional<Tone> strongest_tone(std::span<const double> signal, double period, double lowest,
+                                   double highest) {
+  const double step = 0.5 / (static_cast<double>(signal.size()) * period);
+  std::vector<double> amplitudes;
+  for (double f = lowest; f <= highest; f += step) {
+    amplitudes.push_back(amplitude(signal, period, f));
+  }
+  if (amplitudes.size() < 10) {
+    return std::nullopt;
+  }
+  const auto peak = std::ranges::max_element(amplitudes);
+  const double high = *peak;
+  double low_end = lowest + step * static_cast<double>(peak - amplitudes.begin() - 1);
+  double high_end = low_end + 2.0 * step;
+  std::vector<double> sorted = amplitudes;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  if (high < kStandsOut * *middle) {
+    return std::nullopt;
+  }
+  for (int i = 0; i < 40; ++i) {  // by thirds: the peak of the window's spectrum has one maximum
+    const double a = low_end + (high_end - low_end) / 3.0;
+    const double b = high_end - (high_end - low_end) / 3.0;
+    (amplitude(signal, period, a) < amplitude(signal, period, b) ? low_end : high_end) =
+        amplitude(signal, period, a) < amplitude(signal, period, b) ? a : b;
+  }
+  return tone_at(signal, period, 0.5 * (low_end + high_end));
 }
 
 }  // namespace twin::studies::identify

@@ -1,11 +1,37 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "motion/servo/gains.hpp"
 #include "studies/identify/axis_fit.hpp"
+#include "studies/identify/axis_problem.hpp"
 
 namespace twin::studies::identify {
+
+/// Gains of the position loop and their standard deviations, from recorded drive commands.
+struct GainFit {
+  motion::Gains gains;
+  motion::Gains sigma;
+  double rms_V = 0.0;  ///< what the law of the servo leaves unexplained [V]
+};
+
+/// Linear least squares of s V_k = Kp e_k + Kd (e_k - e_{k-1}) / T + Kf v_k + Ka a_k + s V_trim.
+///
+/// Rows at the limit of +-10 V are left out. Every record must have volts.
+/// @param mm_per_s_per_volt  V-REF scale s [mm/s/V]  @param period  T [s]
+GainFit fit_gains(std::span<const AxisRecord> records, double mm_per_s_per_volt, double period);
+
+/// Distance between the values that a rounded signal can have, as an encoder's counts are.
+///
+/// The smallest steps of the signal are taken for the quantum; it is accepted where nearly all
+/// other steps are whole multiples of it, and then refined over all of them.
+/// @param values  in the order of time
+/// @returns the quantum in the values' unit, or nothing for a signal that is not rounded
+std::optional<double> quantum_of(std::span<const double> values);
 
 /// Reads the encoder's count off the first record. Where the record shows it, the machine gets it.
 FittedParameter measure_count(const AxisProblem& problem, const FitOptions& options,

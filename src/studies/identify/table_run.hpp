@@ -8,6 +8,7 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "gcode/block.hpp"
+#include "motion/interpolator/set_point.hpp"
 #include "motion/servo/axis_servo.hpp"
 
 namespace twin::studies::identify {
@@ -45,5 +46,13 @@ class TableRun {
   std::array<std::vector<motion::Reference>, 2> references_;
   double machining_time_ = 0.0;
 };
+
+/// The set points of a program, one per interpolation period, as a run has them.
+///
+/// They do not depend on the table, so one plan serves any number of simulations.
+/// @param feedrate  replaces the F words [mm/s]
+Expected<std::vector<motion::SetPoint>> plan_set_points(
+    const std::filesystem::path& program, const config::MachineFile& machine,
+    std::optional<double> feedrate = std::nullopt);
 
 }  // namespace twin::studies::identify

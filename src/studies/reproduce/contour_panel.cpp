@@ -1,4 +1,4 @@
-#include "studies/reproduce/contour_panel.hpp"
+#include "studies/reproduce/paper_figures.hpp"
 
 #include <fmt/format.h>
 

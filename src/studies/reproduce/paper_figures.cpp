@@ -9,7 +9,6 @@
 #include "pictures/figure/figure_script.hpp"
 #include "pictures/figure/value_range.hpp"
 #include "results/trace/columns.hpp"
-#include "studies/reproduce/contour_panel.hpp"
 
 namespace twin::studies::reproduce {
 namespace {

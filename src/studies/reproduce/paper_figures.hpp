@@ -1,13 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "pictures/figure/album.hpp"
+#include "pictures/figure/figure_script.hpp"
+#include "results/trace/decimator.hpp"
 #include "studies/reproduce/reproduction.hpp"
 
 namespace twin::studies::reproduce {
+
+/// The panels of Figs. 12 and 13: contour, feedrate, and the part of the feedrate that changes
+/// most, with the feedrate-sensitive corners marked by letters in the order of motion.
+///
+/// @param table     columns t_s, x_cmd_mm, y_cmd_mm, feedrate_mm_per_s
+/// @param data      name of the data file of that table, without extension
+/// @param feedrate  programmed [mm/s]
+std::vector<pictures::Panel> contour_panels(const results::Table& table, const std::string& data,
+                                            double feedrate);
 
 /// Draws Figs. 12 to 19 in the paper's arrangement, from the traces of the single runs as
 /// published, as PNG and SVG with their data and gnuplot scripts.

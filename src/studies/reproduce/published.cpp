@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "config/toml_value.hpp"
+#include "config/toml_file.hpp"
 #include "studies/reproduce/published_columns.hpp"
 
 namespace twin::studies::reproduce {

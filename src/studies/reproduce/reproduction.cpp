@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "config/find_file.hpp"
 #include "core/units.hpp"
-#include "studies/reproduce/phases.hpp"
 #include "studies/reproduce/published_columns.hpp"
 
 namespace twin::studies::reproduce {
@@ -104,6 +104,10 @@ Answer answer(const PublishedRow& row, const Request& request,
   return answer;
 }
 
+constexpr double kG = 1.2207440846057596;  // g^4 = g + 1
+
+double fraction(double x) { return x - std::floor(x); }
+
 }  // namespace
 
 Expected<Reproduction> reproduce(const Request& request) {
@@ -144,6 +148,20 @@ const Answer* find_answer(const Variant& variant, const std::string& program,
            row.feedrate_mm_per_min == feedrate_mm_per_min;
   });
   return found == variant.answers.end() ? nullptr : &*found;
+}
+
+hal::mujoco::TableParams with_phases_of_repeat(hal::mujoco::TableParams table, int repeat) {
+  double step = 1.0;
+  for (hal::mujoco::AxisParams& axis : table.axis) {
+    step /= kG;
+    axis.encoder.phase = fraction(axis.encoder.phase + repeat * step);
+  }
+  step /= kG;
+  constexpr double kCycle = 2.0 * std::numbers::pi;
+  for (hal::mujoco::AxisParams& axis : table.axis) {
+    axis.drive.hum_phase = kCycle * fraction(axis.drive.hum_phase / kCycle + repeat * step);
+  }
+  return table;
 }
 
 }  // namespace twin::studies::reproduce

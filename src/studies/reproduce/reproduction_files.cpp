@@ -6,7 +6,6 @@
 #include "studies/reproduce/counts.hpp"
 #include "studies/reproduce/paper_figures.hpp"
 #include "studies/reproduce/published_columns.hpp"
-#include "studies/reproduce/reproduction_tables.hpp"
 
 namespace twin::studies::reproduce {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "studies/reproduce/published_columns.hpp"
 #include "studies/reproduce/reproduction_files.hpp"
-#include "studies/reproduce/reproduction_tables.hpp"
 
 namespace twin::studies::reproduce {
 namespace {

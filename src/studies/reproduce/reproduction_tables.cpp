@@ -1,4 +1,4 @@
-#include "studies/reproduce/reproduction_tables.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
 
 #include <fmt/format.h>
 

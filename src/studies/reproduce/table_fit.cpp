@@ -1,24 +1,55 @@
 #include "studies/reproduce/table_fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "config/find_file.hpp"
-#include "config/overrides.hpp"
+#include "config/machine_file.hpp"
 #include "core/units.hpp"
 #include "studies/identify/minimise.hpp"
 #include "studies/identify/parallel_for.hpp"
+#include "studies/identify/parameter.hpp"
 #include "studies/identify/table_run.hpp"
-#include "studies/reproduce/phases.hpp"
 #include "studies/reproduce/published_columns.hpp"
-#include "studies/reproduce/table_parameters.hpp"
+#include "studies/reproduce/reproduction.hpp"
 
 namespace twin::studies::reproduce {
 namespace {
+
+/// What fit_tables() looks for, with the ranges it looks in.
+std::vector<studies::identify::Parameter> table_parameters() {
+  using studies::identify::Scale;
+  std::vector<studies::identify::Parameter> list;
+  for (const std::string axis : {"x", "y"}) {
+    const std::string table = "table." + axis + ".";
+    list.push_back({table + "coulomb_friction_N", 0.5, 80.0, Scale::kLogarithmic});
+    list.push_back({table + "static_friction_ratio", 1.0, 2.5, Scale::kLinear});
+    list.push_back({table + "stribeck_velocity_mm_per_s", 0.3, 20.0, Scale::kLogarithmic});
+    list.push_back({table + "bristle_stiffness_N_per_um", 0.03, 30.0, Scale::kLogarithmic});
+    list.push_back({table + "bristle_damping_N_s_per_m", 20.0, 3000.0, Scale::kLogarithmic});
+    list.push_back({table + "viscous_friction_N_s_per_m", 0.5, 60.0, Scale::kLogarithmic});
+    list.push_back({table + "velocity_gain_Hz", 15.0, 300.0, Scale::kLogarithmic});
+    list.push_back({table + "integral_time_ms", 1.0, 30.0, Scale::kLogarithmic});
+    list.push_back({table + "current_lag_ms", 0.1, 1.0, Scale::kLinear});
+    list.push_back({table + "output_delay_ms", 0.05, 1.0, Scale::kLinear});
+    list.push_back({table + "encoder_um_per_count", 0.5, 16.0, Scale::kLogarithmic});
+    list.push_back({table + "hum_amplitude_mV", 0.0, 60.0, Scale::kLinear});
+    list.push_back({table + "vref_offset_mV", -15.0, 15.0, Scale::kLinear});
+    const std::string servo = "servo." + axis + ".";
+    list.push_back({servo + "kp_per_s", 40.0, 300.0, Scale::kLogarithmic});
+    list.push_back({servo + "kf", 0.97, 1.03, Scale::kLinear});
+    list.push_back({servo + "ka_s", 0.0, 0.005, Scale::kLinear});
+  }
+  return list;
+}
 
 using config::MachineFile;
 using studies::identify::RunErrors;
@@ -152,6 +183,17 @@ Expected<MachineFile> fit_planning(const Rows& rows, const MachineFile& start) {
   return result ? with_planning_kf(start, kf) : result;
 }
 
+/// A parameter whose move by a tenth of its range raises the cost by less says nothing: the same
+/// move of the phases alone does as much.
+constexpr double kLeastRise = 0.1;
+
+std::string_view verdict(const FittedValue& value) {
+  if (value.is_at_bound) {
+    return "at the bound of its range";
+  }
+  return value.rise < kLeastRise ? "the tables hardly tell" : "";
+}
+
 }  // namespace
 
 double smooth_cost(double ours, double published) {
@@ -223,6 +265,23 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
     fit.values.push_back(std::move(value));
   }
   return fit;
+}
+
+std::string to_table(const TableFit& fit) {
+  std::string text = fmt::format(
+      "planning.kf = {:.3f}, planning.kp = {:.2f} 1/s: machining times {:.2f} % off (RMS)\n\n",
+      fit.machine.planning.kf, fit.machine.planning.kp, 1e2 * fit.time_error);
+  text += fmt::format("{:<40}{:>12}{:>12}{:>10}\n", "parameter", "before", "after", "rise");
+  for (const FittedValue& value : fit.values) {
+    const std::string_view remark = verdict(value);
+    text += fmt::format("{:<40}{:>12.5g}{:>12.5g}{:>10.3f}{}{}\n", value.key, value.before,
+                        value.after, value.rise, remark.empty() ? "" : "  ", remark);
+  }
+  return text + fmt::format(
+                    "\nrise: of the cost when the parameter is moved by a tenth of its range\n"
+                    "cost {:.3f} before, {:.3f} after, over 48 figures:\n"
+                    "0 where all are met, 2.8 for each that is far off\n",
+                    fit.cost_before, fit.cost_after);
 }
 
 }  // namespace twin::studies::reproduce

@@ -69,4 +69,7 @@ double share_cost(double ours, double published);
 Expected<TableFit> fit_tables(const Published& published, const config::MachineFile& start,
                               const TableFitOptions& options);
 
+/// What a fit to the published tables found, as a table for the terminal.
+std::string to_table(const TableFit& fit);
+
 }  // namespace twin::studies::reproduce

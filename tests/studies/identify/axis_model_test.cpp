@@ -6,7 +6,7 @@
 
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/motion.hpp"
-#include "studies/identify/set_points.hpp"
+#include "studies/identify/table_run.hpp"
 
 namespace twin::studies::identify {
 namespace axis_model_test {

@@ -1,4 +1,4 @@
-#include "studies/reproduce/phases.hpp"
+#include "studies/reproduce/reproduction.hpp"
 
 #include <gtest/gtest.h>
 

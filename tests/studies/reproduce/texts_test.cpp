@@ -7,7 +7,6 @@
 
 #include "answers.hpp"
 #include "studies/reproduce/reproduction_files.hpp"
-#include "studies/reproduce/reproduction_tables.hpp"
 
 // Well-formed tables, page and files, whatever the figures.
 namespace twin::studies::reproduce {

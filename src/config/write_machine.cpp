@@ -1,7 +1,8 @@
+#include "config/machine_file.hpp"
+
 #include <fmt/format.h>
 
 #include "config/binding.hpp"
-#include "config/machine_file.hpp"
 
 namespace twin::config {
 
@@ -25,6 +26,16 @@ std::string to_toml(const MachineFile& machine,
     text += fmt::format("{:<46} # {}\n", binding.key() + " = " + value_text(binding), remark);
   }
   return text;
+}
+
+std::vector<Setting> settings_of(const MachineFile& machine) {
+  MachineFile copy = machine;  // the bindings want something to point at
+  std::vector<Setting> settings;
+  for (const Binding& binding : bindings(copy)) {
+    settings.push_back(
+        {.section = binding.section, .key = binding.key(), .value = setting_value(binding)});
+  }
+  return settings;
 }
 
 }  // namespace twin::config

@@ -1,9 +1,9 @@
-#include "studies/convert/coordinate_text.hpp"
+#include "studies/convert/dialect.hpp"
 
 #include <gtest/gtest.h>
 
 namespace twin::studies::convert {
-namespace number_test {
+namespace dialect_test {
 
 TEST(Number, FewestDigits) {
   EXPECT_EQ(number(1.25, 6), "1.25");
@@ -21,5 +21,5 @@ TEST(Number, RoundedIsWhatIsWritten) {
   EXPECT_EQ(rounded(-1e-9, 6), 0.0);
 }
 
-}  // namespace number_test
+}  // namespace dialect_test
 }  // namespace twin::studies::convert

@@ -1,11 +1,11 @@
-#include "config/settings.hpp"
+#include "config/machine_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 namespace twin::config {
-namespace settings_test {
+namespace write_machine_test {
 
 const SettingValue* find(const std::vector<Setting>& settings, const std::string& section,
                          const std::string& key) {
@@ -40,5 +40,5 @@ TEST(Settings, AreTheKeysOfTheMachineFile) {
   EXPECT_EQ(settings_of(machine).size(), keys);
 }
 
-}  // namespace settings_test
+}  // namespace write_machine_test
 }  // namespace twin::config

@@ -5,11 +5,18 @@
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "config/find_file.hpp"
 #include "operator/operator_station.hpp"
 #include "results/metrics/summary.hpp"
+#include "runtime/program_check.hpp"
+#include "session/pictures.hpp"
 #include "session/session.hpp"
 
+// The commands that take one program from its text to the pictures.
 namespace twin::cli {
+
+// Run and plan.
+
 namespace {
 
 /// What run and plan have in common.
@@ -114,6 +121,70 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
 Expected<void> execute(const TextArguments& arguments, const Environment&) {
   fmt::print("{}", arguments.text);
   return {};
+}
+
+// Render.
+
+Expected<void> execute(const RenderArguments& arguments, const Environment&) {
+  TWIN_TRY(const session::TraceOrigin origin, session::read_origin(arguments.folder));
+  if (arguments.video.is_wanted && origin.kind == session::TraceKind::kPlan) {
+    return fail(ErrorCode::kUsage,
+                "--video needs the trace of a run; this one is of a plan, without a machine");
+  }
+  TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
+  if (arguments.has_plots) {
+    Progress progress("plots", arguments.verbosity);
+    progress.show(0.0);
+    const auto program = config::find_program(origin.program);
+    TWIN_CHECK(session::draw_figures({arguments.folder, program.value_or(std::filesystem::path()),
+                                      origin.program, origin.kind}));
+  }
+  if (arguments.video.is_wanted) {
+    Progress progress("video", arguments.verbosity);
+    TWIN_CHECK(session::render_video({arguments.folder, machine.table.model, origin.program,
+                                      arguments.video.camera, progress.callback()}));
+  }
+  return {};
+}
+
+// Check.
+
+namespace {
+
+Expected<void> check_program_of(const std::string& name, const CheckArguments& arguments,
+                                const config::MachineFile& machine, const std::atomic<bool>& stop) {
+  TWIN_TRY(const auto program, config::find_program(name));
+  gcode::ReaderOptions reading;
+  reading.feedrate = arguments.feedrate;
+  TWIN_TRY(const runtime::Estimate estimate,
+           runtime::estimate_program(program, reading, machine, &stop));
+  if (arguments.verbosity == Verbosity::kNormal) {
+    const runtime::ProgramFigures& figures = estimate.program;
+    fmt::print(
+        "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
+        "cycle time {:.3f} s\n",
+        program.string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
+        figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
+        estimate.plan.time);
+  }
+  return {};
+}
+
+}  // namespace
+
+/// Checks all the programs, so that one call shows what is wrong with each.
+Expected<void> execute(const CheckArguments& arguments, const Environment& environment) {
+  TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
+  Expected<void> result;
+  for (const std::string& name : arguments.programs) {
+    if (auto checked = check_program_of(name, arguments, machine, environment.stop); !checked) {
+      if (!result) {
+        print_error(result.error());
+      }
+      result = checked;
+    }
+  }
+  return result;
 }
 
 }  // namespace twin::cli

@@ -1,9 +1,9 @@
-#include "studies/compare/verdict.hpp"
+#include "studies/compare/planner_table.hpp"
 
 #include <gtest/gtest.h>
 
 namespace twin::studies::compare {
-namespace verdict_test {
+namespace planner_table_test {
 
 TEST(Verdict, WhatKeepsEveryLimitIsKept) {
   const Limits limits;
@@ -26,5 +26,5 @@ TEST(Verdict, TheWorstIsNamed) {
   EXPECT_EQ(audit_verdict(peaks, limits), "axis acceleration 1.50");
 }
 
-}  // namespace verdict_test
+}  // namespace planner_table_test
 }  // namespace twin::studies::compare

@@ -1,0 +1,278 @@
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/machines.hpp"
+#include "config/find_file.hpp"
+#include "config/nearest_name.hpp"
+#include "core/atomic_file.hpp"
+#include "session/machine.hpp"
+#include "session/results.hpp"
+#include "studies/circular/circle_test.hpp"
+#include "studies/compare/comparison_files.hpp"
+#include "studies/compare/planner_table.hpp"
+#include "studies/convert/checked_conversion.hpp"
+#include "studies/convert/dialect.hpp"
+#include "studies/reproduce/published_columns.hpp"
+#include "studies/reproduce/reproduction_files.hpp"
+
+// The commands of the studies but for identify, each a folder of src/studies.
+namespace twin::cli {
+
+// Compare.
+
+namespace {
+
+/// The curve on which parameter updates are usually judged, where it is there.
+constexpr const char* kCurveProgram = "butterfly_nurbs.nc";
+
+/// Files of the programs named.
+Expected<std::vector<std::filesystem::path>> find_programs(const std::vector<std::string>& names) {
+  std::vector<std::filesystem::path> programs;
+  for (const std::string& name : names) {
+    TWIN_TRY(std::filesystem::path program, config::find_program(name));
+    programs.push_back(std::move(program));
+  }
+  return programs;
+}
+
+Expected<studies::compare::Request> request_of(const CompareArguments& arguments,
+                                               const std::filesystem::path& program) {
+  studies::compare::Request request;
+  TWIN_TRY(request.machine_file, config::find_machine(arguments.machine.file));
+  request.program = program;
+  request.settings = arguments.machine.settings;
+  request.feedrate = arguments.feedrate;
+  request.running.make_machine = [hal = arguments.hal](const config::MachineFile& file) {
+    return *session::make_simulated_machine(hal, file);
+  };
+  if (auto curve = config::find_program(kCurveProgram);
+      curve && curve->filename() != program.filename()) {
+    request.curve_programs.push_back(*curve);
+  }
+  return request;
+}
+
+/// One program: the contestants, with runs.
+Expected<void> compare_contestants(const ResultArguments& results,
+                                   studies::compare::Request request,
+                                   const pictures::Workshop& workshop) {
+  Expected<studies::compare::Comparison> comparison;
+  {
+    Progress progress("comparing", results.verbosity);
+    request.running.progress = progress.callback();
+    comparison = studies::compare::compare(request);
+  }
+  if (!comparison) {
+    return tl::unexpected(comparison.error());
+  }
+  {
+    Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
+    progress.show(0.0);
+    TWIN_CHECK(
+        write_results(*comparison, workshop,
+                      results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
+  }
+  if (results.verbosity == Verbosity::kNormal) {
+    fmt::print("{}\n", to_text(grid_of_interpolators(*comparison)));
+    if (!comparison->fluctuations.empty()) {
+      fmt::print("{}\n", to_text(grid_of_fluctuations(*comparison)));
+    }
+  }
+  return {};
+}
+
+/// Several programs: a table of the planners, without runs.
+Expected<void> compare_planners(const ResultArguments& results, studies::compare::Request request,
+                                const std::vector<std::filesystem::path>& programs,
+                                const pictures::Workshop& workshop) {
+  Expected<std::vector<studies::compare::PlannerRow>> rows;
+  {
+    Progress progress("planning", results.verbosity);
+    request.running.progress = progress.callback();
+    rows = studies::compare::planner_rows(request, programs);
+  }
+  if (!rows) {
+    return tl::unexpected(rows.error());
+  }
+  TWIN_CHECK(write_planner_table(*rows, workshop));
+  if (results.verbosity == Verbosity::kNormal) {
+    fmt::print("{}\n", to_text(grid_of_planners(*rows)));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> execute(const CompareArguments& arguments, const Environment& environment) {
+  TWIN_TRY(const auto programs, find_programs(arguments.programs));
+  TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
+  const bool is_one = programs.size() == 1;
+  const std::filesystem::path out = session::result_folder(
+      arguments.results.folder,
+      is_one ? request.program.stem().string() + "_compare" : std::string("compare"));
+  TWIN_TRY(const auto workshop, pictures::Workshop::open(out));
+  request.folder = workshop.folder();
+  request.running.stop = &environment.stop;
+  TWIN_CHECK(is_one ? compare_contestants(arguments.results, request, workshop)
+                    : compare_planners(arguments.results, request, programs, workshop));
+  if (arguments.results.verbosity == Verbosity::kNormal) {
+    fmt::print("results in {}\n", out.string());
+  }
+  return {};
+}
+
+// Reproduce.
+
+namespace {
+
+void print(const studies::reproduce::Reproduction& reproduction) {
+  fmt::print("{}\nA ratio is ours / published; ! marks one that is more than 30 % off.\n\n",
+             reproduction.source);
+  for (int table = studies::reproduce::kFirstTable; table <= studies::reproduce::kLastTable;
+       ++table) {
+    fmt::print("{}\n", to_text(grid_of_table(reproduction, table)));
+  }
+  fmt::print("{}\n{}\n\n", to_text(grid_of_counts(reproduction)), unreached(reproduction));
+}
+
+}  // namespace
+
+Expected<void> execute(const ReproduceArguments& arguments, const Environment& environment) {
+  const ResultArguments& results = arguments.results;
+  studies::reproduce::Request request;
+  TWIN_TRY(request.published, studies::reproduce::published());
+  TWIN_TRY(request.machine_file, config::find_machine(arguments.machine.file));
+  const std::filesystem::path out = session::result_folder(results.folder, "reproduce");
+  TWIN_TRY(const auto workshop, pictures::Workshop::open(out));
+  request.settings = arguments.machine.settings;
+  request.repeats = arguments.repeats;
+  request.folder = workshop.folder();
+  request.running.make_machine = [](const config::MachineFile& file) {
+    return *session::make_simulated_machine("mujoco", file);
+  };
+  request.running.stop = &environment.stop;
+  Expected<studies::reproduce::Reproduction> reproduction;
+  {
+    Progress progress("machining", results.verbosity);
+    request.running.progress = progress.callback();
+    reproduction = studies::reproduce::reproduce(request);
+  }
+  if (!reproduction) {
+    return tl::unexpected(reproduction.error());
+  }
+  {
+    Progress progress("plots", results.has_plots ? results.verbosity : Verbosity::kQuiet);
+    progress.show(0.0);
+    TWIN_CHECK(
+        write_results(*reproduction, workshop,
+                      results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
+  }
+  if (results.verbosity == Verbosity::kNormal) {
+    print(*reproduction);
+    fmt::print("tables and figures: {}\n", (out / "index.html").string());
+  }
+  return {};
+}
+
+// Circle.
+
+namespace {
+
+/// Runs both senses with a progress bar.
+Expected<studies::circular::CircleRun> run_with_progress(const studies::circular::CircleTest& test,
+                                                         Verbosity verbosity,
+                                                         const std::atomic<bool>& stop) {
+  using studies::circular::Sense;
+  Progress progress("counter-clockwise", verbosity);
+  Sense shown = Sense::kCounterClockwise;
+  return studies::circular::run_circle_test(
+      test,
+      [&](Sense sense, double share) {
+        if (sense != shown) {
+          progress.rename("clockwise");
+          shown = sense;
+        }
+        progress.show(share);
+      },
+      stop);
+}
+
+}  // namespace
+
+Expected<void> execute(const CircleArguments& arguments, const Environment& environment) {
+  const Verbosity verbosity = arguments.results.verbosity;
+  studies::circular::CircleTest test;
+  TWIN_TRY(test.machine, read_machine(arguments.machine, verbosity));
+  test.hal = arguments.hal.name;
+  test.make_machine = machine_of(arguments.hal);
+  test.command = environment.command_line;
+  test.radius = arguments.radius;
+  test.feedrate = arguments.feedrate.value_or(test.feedrate);
+  test.folder = session::result_folder(arguments.results.folder, "circle");
+  TWIN_TRY(const auto run, run_with_progress(test, verbosity, environment.stop));
+  if (verbosity == Verbosity::kNormal) {
+    fmt::print("{}", studies::circular::to_table(run.report));
+  }
+  if (arguments.results.has_plots) {
+    Progress progress("plots", verbosity);
+    progress.show(0.0);
+    TWIN_CHECK(studies::circular::draw_circle_test(test, run));
+  }
+  if (verbosity == Verbosity::kNormal) {
+    fmt::print("results in {}\n", test.folder.string());
+  }
+  return {};
+}
+
+// Convert.
+
+namespace {
+
+/// The file that is written: that of --out, or one below renders.
+std::filesystem::path converted_file(const ConvertArguments& arguments,
+                                     const std::filesystem::path& program) {
+  if (!arguments.file.empty()) {
+    return arguments.file;
+  }
+  const auto dialect = studies::convert::make_dialect(arguments.dialect);
+  const std::string name =
+      fmt::format("{}.{}{}", program.stem().string(), dialect->name(), dialect->extension());
+  return std::filesystem::path("renders") / program.stem() / name;
+}
+
+}  // namespace
+
+std::string dialect_error(const std::string& name) {
+  if (studies::convert::make_dialect(name) != nullptr) {
+    return {};
+  }
+  const std::vector<std::string> names = studies::convert::dialect_names();
+  return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
+
+Expected<void> execute(const ConvertArguments& arguments, const Environment&) {
+  TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
+  TWIN_TRY(const auto program, config::find_program(arguments.program.name));
+  const std::filesystem::path file = converted_file(arguments, program);
+  TWIN_CHECK(session::prepare_output_file(file));
+  std::error_code ignored;
+  if (std::filesystem::equivalent(file, program, ignored)) {
+    return fail(ErrorCode::kUsage, "--out " + file.string() + " is the program itself");
+  }
+  studies::convert::Job job{program, {}, machine.path, machine.planning, machine.limits};
+  job.reading.feedrate = arguments.program.feedrate;
+  TWIN_TRY(const auto checked, studies::convert::convert_and_check(job, arguments.dialect));
+  TWIN_CHECK(write_whole_file(file, checked.conversion.text));
+  if (arguments.verbosity == Verbosity::kNormal) {
+    fmt::print("{}written to {}\n", studies::convert::to_table(job, arguments.dialect, checked),
+               file.string());
+  }
+  return {};
+}
+
+}  // namespace twin::cli
