@@ -125,7 +125,21 @@ Expected<void> execute(const TextArguments& arguments, const Environment&) {
 
 // Render.
 
-Expected<void> execute(const RenderArguments& arguments, const Environment&) {
+namespace {
+
+/// The program of a trace, where it is still there and still the same.
+std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
+                                             const std::atomic<bool>& stop) {
+  const auto file = config::find_program(origin.program);
+  auto program = file ? gcode::ProgramText::read(*file, {.folder = {}, .stop = &stop})
+                      : tl::unexpected(file.error());
+  const bool is_same = program && program->sha256() == origin.program_sha256;
+  return is_same ? std::optional(*std::move(program)) : std::nullopt;
+}
+
+}  // namespace
+
+Expected<void> execute(const RenderArguments& arguments, const Environment& environment) {
   TWIN_TRY(const session::TraceOrigin origin, session::read_origin(arguments.folder));
   if (arguments.video.is_wanted && origin.kind == session::TraceKind::kPlan) {
     return fail(ErrorCode::kUsage,
@@ -135,8 +149,7 @@ Expected<void> execute(const RenderArguments& arguments, const Environment&) {
   if (arguments.has_plots) {
     Progress progress("plots", arguments.verbosity);
     progress.show(0.0);
-    const auto program = config::find_program(origin.program);
-    TWIN_CHECK(session::draw_figures({arguments.folder, program.value_or(std::filesystem::path()),
+    TWIN_CHECK(session::draw_figures({arguments.folder, program_of(origin, environment.stop),
                                       origin.program, origin.kind}));
   }
   if (arguments.video.is_wanted) {
@@ -153,7 +166,8 @@ namespace {
 
 Expected<void> check_program_of(const std::string& name, const CheckArguments& arguments,
                                 const config::MachineFile& machine, const std::atomic<bool>& stop) {
-  TWIN_TRY(const auto program, config::find_program(name));
+  TWIN_TRY(const auto file, config::find_program(name));
+  TWIN_TRY(const auto program, gcode::ProgramText::read(file, {.folder = {}, .stop = &stop}));
   gcode::ReaderOptions reading;
   reading.feedrate = arguments.feedrate;
   TWIN_TRY(const runtime::Estimate estimate,
@@ -163,7 +177,7 @@ Expected<void> check_program_of(const std::string& name, const CheckArguments& a
     fmt::print(
         "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
         "cycle time {:.3f} s\n",
-        program.string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
+        file.string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
         figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
         estimate.plan.time);
   }

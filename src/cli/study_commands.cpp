@@ -29,18 +29,21 @@ namespace {
 /// The curve on which parameter updates are usually judged, where it is there.
 constexpr const char* kCurveProgram = "butterfly_nurbs.nc";
 
-/// Files of the programs named.
-Expected<std::vector<std::filesystem::path>> find_programs(const std::vector<std::string>& names) {
-  std::vector<std::filesystem::path> programs;
+/// Reads the programs named.
+Expected<std::vector<gcode::ProgramText>> read_programs(const std::vector<std::string>& names,
+                                                        const std::atomic<bool>& stop) {
+  std::vector<gcode::ProgramText> programs;
   for (const std::string& name : names) {
-    TWIN_TRY(std::filesystem::path program, config::find_program(name));
+    TWIN_TRY(const std::filesystem::path file, config::find_program(name));
+    TWIN_TRY(gcode::ProgramText program,
+             gcode::ProgramText::read(file, {.folder = {}, .stop = &stop}));
     programs.push_back(std::move(program));
   }
   return programs;
 }
 
 Expected<studies::compare::Request> request_of(const CompareArguments& arguments,
-                                               const std::filesystem::path& program) {
+                                               const gcode::ProgramText& program) {
   studies::compare::Request request;
   TWIN_TRY(request.machine_file, config::find_machine(arguments.machine.file));
   request.program = program;
@@ -50,8 +53,9 @@ Expected<studies::compare::Request> request_of(const CompareArguments& arguments
     return *session::make_simulated_machine(hal, file);
   };
   if (auto curve = config::find_program(kCurveProgram);
-      curve && curve->filename() != program.filename()) {
-    request.curve_programs.push_back(*curve);
+      curve && curve->filename() != program.file().filename()) {
+    TWIN_TRY(gcode::ProgramText text, gcode::ProgramText::read(*curve));
+    request.curve_programs.push_back(std::move(text));
   }
   return request;
 }
@@ -87,7 +91,7 @@ Expected<void> compare_contestants(const ResultArguments& results,
 
 /// Several programs: a table of the planners, without runs.
 Expected<void> compare_planners(const ResultArguments& results, studies::compare::Request request,
-                                const std::vector<std::filesystem::path>& programs,
+                                const std::vector<gcode::ProgramText>& programs,
                                 const pictures::Workshop& workshop) {
   Expected<std::vector<studies::compare::PlannerRow>> rows;
   {
@@ -108,12 +112,12 @@ Expected<void> compare_planners(const ResultArguments& results, studies::compare
 }  // namespace
 
 Expected<void> execute(const CompareArguments& arguments, const Environment& environment) {
-  TWIN_TRY(const auto programs, find_programs(arguments.programs));
+  TWIN_TRY(const auto programs, read_programs(arguments.programs, environment.stop));
   TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
   const bool is_one = programs.size() == 1;
   const std::filesystem::path out = session::result_folder(
       arguments.results.folder,
-      is_one ? request.program.stem().string() + "_compare" : std::string("compare"));
+      is_one ? request.program.file().stem().string() + "_compare" : std::string("compare"));
   TWIN_TRY(const auto workshop, pictures::Workshop::open(out));
   request.folder = workshop.folder();
   request.running.stop = &environment.stop;
@@ -255,15 +259,17 @@ std::string dialect_error(const std::string& name) {
                      fmt::join(names, ", "));
 }
 
-Expected<void> execute(const ConvertArguments& arguments, const Environment&) {
+Expected<void> execute(const ConvertArguments& arguments, const Environment& environment) {
   TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
-  TWIN_TRY(const auto program, config::find_program(arguments.program.name));
-  const std::filesystem::path file = converted_file(arguments, program);
+  TWIN_TRY(const auto source, config::find_program(arguments.program.name));
+  const std::filesystem::path file = converted_file(arguments, source);
   TWIN_CHECK(session::prepare_output_file(file));
   std::error_code ignored;
-  if (std::filesystem::equivalent(file, program, ignored)) {
+  if (std::filesystem::equivalent(file, source, ignored)) {
     return fail(ErrorCode::kUsage, "--out " + file.string() + " is the program itself");
   }
+  TWIN_TRY(const auto program,
+           gcode::ProgramText::read(source, {.folder = {}, .stop = &environment.stop}));
   studies::convert::Job job{program, {}, machine.path, machine.planning, machine.limits};
   job.reading.feedrate = arguments.program.feedrate;
   TWIN_TRY(const auto checked, studies::convert::convert_and_check(job, arguments.dialect));

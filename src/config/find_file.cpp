@@ -82,6 +82,9 @@ Expected<fs::path> find_file(std::string_view kind, const std::string& name,
 }
 
 Expected<fs::path> find_program(const std::string& name) {
+  if (name == "-") {
+    return fs::path("/dev/stdin");
+  }
   return find_file("NC program", name, ".nc", data_folders("nc_programs"));
 }
 

@@ -29,7 +29,7 @@ Expected<std::filesystem::path> find_file(std::string_view kind, const std::stri
                                           std::string_view extension,
                                           std::span<const std::filesystem::path> folders);
 
-/// An NC program: a path, or a name in nc_programs.
+/// An NC program: a path, a name in nc_programs, or "-" for standard input.
 Expected<std::filesystem::path> find_program(const std::string& name);
 
 /// A machine file: a path, or a name in mjcf.

@@ -222,6 +222,8 @@ Expected<ProgramText> ProgramText::read(const fs::path& path, const Reading& rea
   return ProgramText(std::move(data));
 }
 
+ProgramText::ProgramText() : data_(std::make_shared<Data>()) {}
+
 ProgramText ProgramText::from_text(std::string text, fs::path name) {
   auto data = std::make_shared<Data>();
   Sha256 hash;

@@ -37,6 +37,9 @@ class ProgramText {
   static Expected<ProgramText> read(const std::filesystem::path& path, const Reading& reading);
   static Expected<ProgramText> read(const std::filesystem::path& path) { return read(path, {}); }
 
+  /// An empty program without a name.
+  ProgramText();
+
   /// A program held in memory. @param name  stands for the file in messages
   static ProgramText from_text(std::string text, std::filesystem::path name);
 

@@ -39,6 +39,11 @@ struct ReaderOptions {
 class Reader {
  public:
   explicit Reader(const ProgramText& program, const ReaderOptions& options = {});
+  Reader(Reader&&) noexcept = default;
+  Reader& operator=(Reader&&) noexcept = default;
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() = default;
 
   /// Reads the program in a file (see ProgramText::read()) for this reading alone.
   static Expected<Reader> open(const std::string& path, const ReaderOptions& options = {});

@@ -11,10 +11,10 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "gcode/program_text.hpp"
 #include "results/metrics/summary.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/planning.hpp"
-#include "runtime/program_source.hpp"
 #include "runtime/set_points.hpp"
 #include "twin/twin.hpp"
 
@@ -22,7 +22,7 @@
 namespace twin {
 
 struct Program::Data {
-  runtime::ProgramSource source;
+  gcode::ProgramText source;
   std::optional<double> feedrate;  // in place of the F words [mm/s]
 };
 

@@ -10,12 +10,12 @@ namespace twin {
 Program::Program(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 Program Program::from_file(const std::string& name) {
-  return Program(std::make_shared<Data>(Data{value_of(config::find_program(name)), std::nullopt}));
+  return Program(std::make_shared<Data>(Data{value_of(gcode::ProgramText::read(value_of(config::find_program(name)))), std::nullopt}));
 }
 
 Program Program::from_text(std::string text, std::string name) {
   return Program(std::make_shared<Data>(
-      Data{runtime::ProgramSource::from_text(std::move(text), std::move(name)), std::nullopt}));
+      Data{gcode::ProgramText::from_text(std::move(text), std::move(name)), std::nullopt}));
 }
 
 Program Program::with_feedrate(double feedrate) const {
@@ -29,7 +29,7 @@ Program Program::with_feedrate(double feedrate) const {
   return Program(std::make_shared<Data>(Data{data_->source, feedrate}));
 }
 
-std::string Program::name() const { return data_->source.file.filename().string(); }
+std::string Program::name() const { return data_->source.file().filename().string(); }
 
 ProgramFigures Program::check(const Settings& settings) const {
   const auto found = value_of(runtime::check_program(data_->source, {.feedrate = data_->feedrate},

@@ -4,9 +4,9 @@
 
 namespace twin::runtime {
 
-Expected<std::unique_ptr<SetPoints>> SetPoints::open(const gcode::ProgramText& program,
-                                                     const config::MachineFile& machine,
-                                                     const std::optional<double>& feedrate) {
+std::unique_ptr<SetPoints> SetPoints::open(const gcode::ProgramText& program,
+                                           const config::MachineFile& machine,
+                                           const std::optional<double>& feedrate) {
   gcode::Reader reader(program, {.feedrate = feedrate});
   return std::unique_ptr<SetPoints>(new SetPoints(std::move(reader), machine));
 }

@@ -25,7 +25,7 @@ namespace twin::runtime {
 class SetPoints {
  public:
   /// @param feedrate  replaces the program's F words [mm/s]
-  static Expected<std::unique_ptr<SetPoints>> open(const gcode::ProgramText& program,
+  static std::unique_ptr<SetPoints> open(const gcode::ProgramText& program,
                                                    const config::MachineFile& machine,
                                                    const std::optional<double>& feedrate = {});
   SetPoints(const SetPoints&) = delete;

@@ -83,18 +83,13 @@ void add_block(const gcode::Block& block, ThinnedOutline& outline) {
 /// What becomes of moves with the pen up.
 enum class Lifted { kLeftOut, kDrawn };
 
-std::vector<Vec2> read_outline(const std::filesystem::path& program, Lifted lifted) {
+std::vector<Vec2> read_outline(const gcode::ProgramText& program, Lifted lifted) {
   ThinnedOutline outline;
   gcode::ReaderOptions options;
   options.feedrate = 1.0;  // the outline does not depend on it
-  auto reader = program.empty() ? fail(ErrorCode::kFile, "no program")
-                                : gcode::Reader::open(program.string(), options);
+  gcode::Reader reader(program, options);
   bool is_apart = true;  // the next block does not continue what is drawn
-  while (reader) {
-    auto next = reader->next();
-    if (!next || !next->has_value()) {
-      break;
-    }
+  for (auto next = reader.next(); next && next->has_value(); next = reader.next()) {
     const gcode::Block& block = **next;
     if (lifted == Lifted::kLeftOut && std::min(block.start.z(), block.end.z()) > results::kPenUp) {
       is_apart = true;
@@ -112,7 +107,7 @@ std::vector<Vec2> read_outline(const std::filesystem::path& program, Lifted lift
 
 /// Programmed path seen along Z, arcs as chords of a degree, moves with the pen up
 /// left out (a point that is not a number lifts the line) [mm]; thinned on long programs.
-std::vector<Vec2> programmed_outline(const std::filesystem::path& program) {
+std::vector<Vec2> programmed_outline(const gcode::ProgramText& program) {
   std::vector<Vec2> outline = read_outline(program, Lifted::kLeftOut);
   return outline.empty() ? read_outline(program, Lifted::kDrawn) : outline;
 }
@@ -132,6 +127,9 @@ Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
         Error{ErrorCode::kFile, "is not the summary of a run", file.string(), 0, 0});
   }
   return TraceOrigin{json["program"].get<std::string>(),
+                     json.contains("program_sha256") && json["program_sha256"].is_string()
+                         ? json["program_sha256"].get<std::string>()
+                         : std::string(),
                      json.contains("machining_time_s") ? TraceKind::kRun : TraceKind::kPlan};
 }
 
@@ -139,7 +137,9 @@ Expected<void> draw_figures(const FigureRequest& request) {
   pictures::FigureInput input;
   input.directory = request.folder;
   input.title = request.title;
-  input.programmed = programmed_outline(request.program);
+  if (request.program) {
+    input.programmed = programmed_outline(*request.program);
+  }
   input.plan_only = request.kind == TraceKind::kPlan;
   TWIN_CHECK(pictures::write_figures(input));
   return {};

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 
 /// Figures and video, made from the trace that a run has left in a folder.
 namespace twin::session {
@@ -17,7 +19,8 @@ enum class TraceKind {
 
 /// What summary.json says of the trace beside it.
 struct TraceOrigin {
-  std::string program;  ///< file name of the NC program
+  std::string program;         ///< file name of the NC program
+  std::string program_sha256;  ///< of its bytes
   TraceKind kind = TraceKind::kRun;
 };
 
@@ -27,7 +30,7 @@ Expected<TraceOrigin> read_origin(const std::filesystem::path& folder);
 /// What the figures of a folder are drawn from.
 struct FigureRequest {
   std::filesystem::path folder;   ///< holds trace.csv; the figures go to its folder plots
-  std::filesystem::path program;  ///< NC program; empty: the programmed path is not drawn
+  std::optional<gcode::ProgramText> program;  ///< NC program; none: its path is not drawn
   std::string title;              ///< above each figure
   TraceKind kind = TraceKind::kRun;
 };

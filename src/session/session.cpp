@@ -41,7 +41,8 @@ std::string Session::title() const {
 
 Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   runtime::RunRequest run;
-  run.program = program_;
+  TWIN_TRY(text_, gcode::ProgramText::read(program_, {.folder = request_.folder, .stop = attendance.stop}));
+  run.program = text_;
   run.machine = request_.machine;
   run.hal = hal_;
   run.feedrate = request_.feedrate;
@@ -57,7 +58,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   TWIN_TRY(runtime::RunResult result, runtime::run_program(run));
   if (request_.has_bound && !result.failure) {
     TWIN_TRY(result.summary.time_bound,
-             runtime::time_bound(program_, request_.machine, request_.feedrate));
+             runtime::time_bound(text_, request_.machine, request_.feedrate));
   }
   TWIN_CHECK(write_summary(request_.folder, result));
   if (!result.failure) {
@@ -68,7 +69,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
 
 Expected<void> Session::draw_figures() const {
   return session::draw_figures(
-      {request_.folder, program_, title(), hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun});
+      {request_.folder, text_, title(), hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun});
 }
 
 Expected<void> Session::render_video(const std::string& camera,

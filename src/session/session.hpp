@@ -10,6 +10,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
@@ -95,6 +96,7 @@ class Session {
 
   Request request_;
   std::filesystem::path program_;
+  gcode::ProgramText text_;  // of the program, as run() has read it
   std::unique_ptr<hal::Machine> made_;
   hal::Machine* hal_;
 };

@@ -6,6 +6,7 @@
 
 #include "hal/ideal/ideal_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::runtime {
 namespace cycle_time_test {
@@ -21,7 +22,7 @@ TEST_P(CycleTime, IsWhatTheRunTakesWithinAPeriod) {
       continue;
     }
     ++count;
-    request.program = entry.path();
+    request.program = test::text_of(entry.path());
     const auto estimate = estimate_program(request.program, {}, request.machine, nullptr);
     ASSERT_TRUE(estimate) << to_string(estimate.error());
     double shown = 0.0;

@@ -7,6 +7,7 @@
 
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::runtime {
 namespace program_bound_test {
@@ -24,7 +25,7 @@ TEST_P(ProgramBound, NoPlanIsFasterThanItsBound) {
       auto reader = gcode::Reader::open(file, {.feedrate = feedrate});
       ASSERT_TRUE(reader);
       const auto plan = plan_program(*reader, machine, [](auto&&) { return true; });
-      const auto bound = time_bound(file, machine, feedrate);
+      const auto bound = time_bound(test::text_of(file), machine, feedrate);
       ASSERT_TRUE(plan && bound);
       EXPECT_LE(*bound, plan->time * (1.0 + 1e-9)) << name;
       EXPECT_GT(*bound, plan->path_length / std::max(feedrate, machine.limits.rapid_feedrate))

@@ -8,6 +8,7 @@
 #include "tests/support/fake_machine.hpp"
 #include "tests/support/faulty_machine.hpp"
 #include "tests/support/trace_rows.hpp"
+#include "tests/support/program_text.hpp"
 
 // What throws or trips in a run: the machine is off, the trace is kept, the run says why.
 namespace twin::runtime {
@@ -16,7 +17,7 @@ namespace run_failures_test {
 using ::testing::HasSubstr;
 
 TEST_F(RunProgram, ProgressThatThrowsBrakesTheMachineAndKeepsTheTrace) {
-  request.program = folder.put("long.nc", "G01 X100 F3000\nX0\nX100\nX0\n");
+  request.program = test::text_of(folder.put("long.nc", "G01 X100 F3000\nX0\nX100\nX0\n"));
   request.progress = [](double done) {
     if (done >= 0.5) {
       throw std::runtime_error("terminal is gone");

@@ -13,6 +13,7 @@
 #include "tests/support/fake_machine.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/trace_rows.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::runtime {
 namespace run_test {
@@ -73,7 +74,7 @@ TEST_F(RunProgram, TwoRunsLeaveTheSameTrace) {
 class Interrupted : public RunProgram {
  protected:
   Expected<RunResult> run_until(std::int64_t last_write) {
-    request.program = folder.put("long.nc", "G01 X100 F3000\nG03 X150 Y50 R50\nG01 Y100\nX0 Y0\n");
+    request.program = test::text_of(folder.put("long.nc", "G01 X100 F3000\nG03 X150 Y50 R50\nG01 Y100\nX0 Y0\n"));
     request.stop = &stop;
     machine.on_write = [this, last_write](std::int64_t write) {
       if (write >= last_write) {
@@ -143,7 +144,7 @@ TEST_F(RunProgram, MachineThatDoesNotStartIsSwitchedOffAndLeavesNoTrace) {
 }
 
 TEST_F(RunProgram, TravelIsCheckedBeforeTheMachineIsTouched) {
-  request.program = folder.put("far.nc", "G01 X10 F600\nX201\n");
+  request.program = test::text_of(folder.put("far.nc", "G01 X10 F600\nX201\n"));
   test::FakeMachine machine;
   const auto result = run(&machine);
   ASSERT_FALSE(result);
@@ -175,7 +176,7 @@ class FileSizeLimit {
 TEST_F(RunProgram, TraceThatCannotBeWrittenStopsTheMachineAtRest) {
   const FileSizeLimit full(100000);
   // Long enough for the trace's buffer to reach the disk while the machine moves.
-  request.program = folder.put("long.nc", "G01 X150 F1500\nX0\n");
+  request.program = test::text_of(folder.put("long.nc", "G01 X150 F1500\nX0\n"));
   test::FakeMachine machine;
   machine.on_write = [](std::int64_t) { std::this_thread::yield(); };
   const auto result = run(&machine);

@@ -9,6 +9,7 @@
 #include "hal/ideal/ideal_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/support/trace_rows.hpp"
+#include "tests/support/program_text.hpp"
 
 // Set points one by one, for a loop of one's own: the same ones that a run has.
 namespace twin::runtime {
@@ -41,7 +42,7 @@ std::vector<double> way_of(const std::vector<motion::SetPoint>& points) {
 class SetPointsOfARun : public RunProgram {
  protected:
   void expect_same(const std::string& text) {
-    request.program = ProgramSource::from_text(text, "text");
+    request.program = gcode::ProgramText::from_text(text, "text");
     MemoryTrace trace;
     request.sinks = {&trace};
     hal::ideal::IdealMachine machine;
@@ -50,7 +51,7 @@ class SetPointsOfARun : public RunProgram {
     EXPECT_EQ(result->summary.program, "text");
     auto points = SetPoints::open(request.program, request.machine);
     ASSERT_TRUE(points);
-    const auto all = follow(**points, [](SetPoints&) {});
+    const auto all = follow(*points, [](SetPoints&) {});
     ASSERT_EQ(all.size(), trace.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       ASSERT_EQ(all[i].position.x(), trace["x_cmd_mm"][i]);
@@ -58,7 +59,7 @@ class SetPointsOfARun : public RunProgram {
       ASSERT_EQ(all[i].feedrate, trace["feedrate_mm_per_s"][i]);
       ASSERT_EQ(static_cast<double>(all[i].line), trace["line"][i]);
     }
-    EXPECT_FALSE((*points)->error());
+    EXPECT_FALSE(points->error());
   }
 };
 
@@ -76,10 +77,10 @@ TEST_F(SetPointsOfARun, AreTheSameWhereTheRunPlansALongProgramAgain) {
 TEST(SetPoints, FollowOverrideAndHoldWithinTheLimits) {
   const config::MachineFile machine;
   const std::string smooth = "G01 X40 F3000\nG03 X60 Y20 R20\nG01 Y100\n";
-  auto points = SetPoints::open(ProgramSource::from_text(smooth, "text"), machine);
+  auto points = SetPoints::open(gcode::ProgramText::from_text(smooth, "text"), machine);
   ASSERT_TRUE(points);
   int rests = 0;
-  const auto all = follow(**points, [&](SetPoints& now) {
+  const auto all = follow(*points, [&](SetPoints& now) {
     const double t = now.time();
     now.set_override(t < 0.5 ? 100.0 : 40.0);
     now.hold(t >= 1.0 && t < 1.5);
@@ -89,14 +90,8 @@ TEST(SetPoints, FollowOverrideAndHoldWithinTheLimits) {
   }
   EXPECT_GT(rests, 300);  // of the 500 periods of the hold
   EXPECT_LT((all.back().position - Vec3(60.0, 100.0, 0.0)).norm(), 1e-9);
-  EXPECT_EQ((*points)->overrides().size(), 3U);
+  EXPECT_EQ(points->overrides().size(), 3U);
   test::expect_within_limits(way_of(all), machine.period, machine.limits, 50.0, 0.5);
-}
-
-TEST(SetPoints, RefuseAProgramThatIsNotThere) {
-  const auto points = SetPoints::open("/nonexistent/part.nc", config::MachineFile{});
-  ASSERT_FALSE(points);
-  EXPECT_EQ(points.error().code, ErrorCode::kFile);
 }
 
 TEST(SetPoints, BrakeOnThePathWhereTheProgramIsWrong) {
@@ -104,11 +99,11 @@ TEST(SetPoints, BrakeOnThePathWhereTheProgramIsWrong) {
   for (int i = 0; i < 200; ++i) {
     text += "X5\nY5\nX0\nY0\n";
   }
-  auto points = SetPoints::open(ProgramSource::from_text(text + "Q1\n", "text"), {});
+  auto points = SetPoints::open(gcode::ProgramText::from_text(text + "Q1\n", "text"), {});
   ASSERT_TRUE(points);
-  const auto all = follow(**points, [](SetPoints&) {});
-  ASSERT_TRUE((*points)->error());
-  EXPECT_EQ((*points)->error()->line, 802);
+  const auto all = follow(*points, [](SetPoints&) {});
+  ASSERT_TRUE(points->error());
+  EXPECT_EQ(points->error()->line, 802);
   ASSERT_GT(all.size(), 1000U);
   EXPECT_EQ(all.back().feedrate, 0.0);
   for (std::size_t i = 1; i < all.size(); ++i) {
@@ -121,10 +116,10 @@ TEST_F(RunProgram, AProgramAsTextIsTheProgramOfTheFile) {
   MemoryTrace of_file;
   MemoryTrace of_text;
   hal::ideal::IdealMachine machine;
-  request.program = folder.put("part.nc", kProgram);
+  request.program = test::text_of(folder.put("part.nc", kProgram));
   request.sinks = {&of_file};
   ASSERT_TRUE(run(&machine));
-  request.program = ProgramSource::from_text(kProgram, "part.nc");
+  request.program = gcode::ProgramText::from_text(kProgram, "part.nc");
   request.sinks = {&of_text};
   ASSERT_TRUE(run(&machine));
   ASSERT_EQ(of_file.size(), of_text.size());
@@ -136,7 +131,7 @@ TEST_F(RunProgram, AProgramAsTextIsTheProgramOfTheFile) {
 }
 
 TEST_F(RunProgram, AFaultOfATextHasItsNameAndLine) {
-  request.program = ProgramSource::from_text("G01 X10 F600\nX201\n", "made up");
+  request.program = gcode::ProgramText::from_text("G01 X10 F600\nX201\n", "made up");
   const auto result = run(nullptr);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().file, "made up");

@@ -7,6 +7,7 @@
 #include "results/trace/csv_reader.hpp"
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/support/fake_machine.hpp"
+#include "tests/support/program_text.hpp"
 
 // The rows of a run go to any number of sinks; one that fails ends the run like any other fault.
 namespace twin::runtime {
@@ -88,7 +89,7 @@ TEST_F(RunProgram, WithoutAFolderNoFileIsWritten) {
 
 TEST_F(RunProgram, ASinkThatFailsBrakesTheMachineAndTheOthersKeepWhatWasRecorded) {
   for (const auto fault : {FaultySink::Fault::kRows, FaultySink::Fault::kThrow}) {
-    request.program = folder.put("long.nc", "G01 X100 F3000\nX0\nX100\nX0\n");
+    request.program = test::text_of(folder.put("long.nc", "G01 X100 F3000\nX0\nX100\nX0\n"));
     FaultySink faulty(fault);
     MemoryTrace memory;
     request.sinks = {&faulty, &memory};

@@ -9,6 +9,7 @@
 #include "config/machine_file.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
+#include "tests/support/program_text.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::test {
@@ -41,7 +42,7 @@ class LoopTest : public ::testing::Test {
   results::Summary execute(const std::filesystem::path& nc, const config::MachineFile& file,
                            hal::Machine* hal, std::optional<double> feedrate) const {
     runtime::RunRequest request;
-    request.program = nc;
+    request.program = text_of(nc);
     request.machine = file;
     request.hal = hal;
     request.feedrate = feedrate;

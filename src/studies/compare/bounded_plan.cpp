@@ -85,10 +85,10 @@ class Clock {
 
 }  // namespace
 
-Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
+Expected<BoundedPlan> bounded_plan(const gcode::ProgramText& program,
                                    const config::MachineFile& machine,
                                    const std::optional<double>& feedrate, Profiles profiles) {
-  TWIN_TRY(gcode::Reader reader, gcode::Reader::open(program.string(), {.feedrate = feedrate}));
+  gcode::Reader reader(program, {.feedrate = feedrate});
   BoundedPlan result{.time_bound = 0.0, .planned = {3, {}}, .bound = {3, {}}};
   feedrate::TimeBound::Profile profile;
   double last_s = 0.0;

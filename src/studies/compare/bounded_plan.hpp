@@ -5,6 +5,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 #include "results/trace/decimator.hpp"
 
 namespace twin::studies::compare {
@@ -22,7 +23,7 @@ enum class Profiles { kRecorded, kLeftOut };
 /// Plans a program and bounds its time.
 ///
 /// @param feedrate  replaces the program's F words [mm/s]
-Expected<BoundedPlan> bounded_plan(const std::filesystem::path& program,
+Expected<BoundedPlan> bounded_plan(const gcode::ProgramText& program,
                                    const config::MachineFile& machine,
                                    const std::optional<double>& feedrate, Profiles profiles);
 

@@ -66,7 +66,7 @@ Expected<void> run_contestants(const Request& request, Comparison& result) {
 }
 
 /// Adds the plans of one program, each update under each rule.
-Expected<void> add_plans(const Request& request, const std::filesystem::path& program,
+Expected<void> add_plans(const Request& request, const gcode::ProgramText& program,
                          std::vector<studies::jobs::Job>& jobs,
                          std::vector<Fluctuation>& fluctuations) {
   for (const std::string rule : {"", "constant"}) {
@@ -76,7 +76,7 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
       if (!rule.empty()) {
         settings.push_back("planning.feedrate_rule=" + rule);
       }
-      const std::string file = program.filename().string();
+      const std::string file = program.file().filename().string();
       TWIN_TRY(studies::jobs::Job job, job_of(request, program, file + ", " + update, settings));
       job.has_machine = false;
       job.directory = request.folder / fmt::format("plan_{}", jobs.size());
@@ -93,7 +93,7 @@ Expected<void> add_plans(const Request& request, const std::filesystem::path& pr
 
 Expected<void> plan_updates(const Request& request, Comparison& result) {
   std::vector<studies::jobs::Job> jobs;
-  std::vector<std::filesystem::path> programs = request.curve_programs;
+  std::vector<gcode::ProgramText> programs = request.curve_programs;
   if (result.contestants.front().summary.segments.curves > 0) {
     programs.insert(programs.begin(), request.program);
   }
@@ -112,13 +112,13 @@ Expected<void> plan_updates(const Request& request, Comparison& result) {
 
 Expected<Comparison> compare(const Request& request) {
   Comparison result;
-  result.program = request.program.filename().string();
+  result.program = request.program.file().filename().string();
   TWIN_CHECK(run_contestants(request, result));
   TWIN_CHECK(plan_updates(request, result));
   return result;
 }
 
-Expected<studies::jobs::Job> job_of(const Request& request, const std::filesystem::path& program,
+Expected<studies::jobs::Job> job_of(const Request& request, const gcode::ProgramText& program,
                                     const std::string& name,
                                     const std::vector<std::string>& settings) {
   std::vector<std::string> all = request.settings;
@@ -137,7 +137,7 @@ Expected<double> planning_time(const studies::jobs::Job& job) {
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    TWIN_TRY(gcode::Reader reader, gcode::Reader::open(job.program.string(), options));
+    gcode::Reader reader(job.program, options);
     TWIN_CHECK(runtime::plan_program(reader, job.machine,
                                      [](feedrate::PlannedSegment&&) { return true; }));
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/limits.hpp"
+#include "gcode/program_text.hpp"
 #include "studies/compare/bounded_plan.hpp"
 #include "studies/jobs/run_jobs.hpp"
 
@@ -15,8 +16,8 @@ namespace twin::studies::compare {
 
 /// What is compared, and on which machine.
 struct Request {
-  std::filesystem::path program;
-  std::vector<std::filesystem::path> curve_programs;  ///< further ones, for the fluctuation alone
+  gcode::ProgramText program;
+  std::vector<gcode::ProgramText> curve_programs;  ///< further ones, for the fluctuation alone
   std::filesystem::path machine_file;
   std::vector<std::string> settings;  ///< section.key=value, for all
   std::optional<double> feedrate;     ///< replaces the program's F words [mm/s]
@@ -64,7 +65,7 @@ struct Comparison {
 Expected<Comparison> compare(const Request& request);
 
 /// A job of a request: its machine file with its settings and further ones.
-Expected<studies::jobs::Job> job_of(const Request& request, const std::filesystem::path& program,
+Expected<studies::jobs::Job> job_of(const Request& request, const gcode::ProgramText& program,
                                     const std::string& name,
                                     const std::vector<std::string>& settings);
 

@@ -98,11 +98,11 @@ class Worst {
 }  // namespace
 
 Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
-                                               const std::vector<std::filesystem::path>& programs) {
+                                               const std::vector<gcode::ProgramText>& programs) {
   std::vector<studies::jobs::Job> jobs;
   std::vector<PlannerRow> rows;
   for (const auto& program : programs) {
-    const std::string file = program.filename().string();
+    const std::string file = program.file().filename().string();
     for (const std::string planner : kPlanners) {
       TWIN_TRY(studies::jobs::Job job,
                job_of(request, program, file + ", " + planner, {"planning.planner=" + planner}));

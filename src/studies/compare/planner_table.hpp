@@ -6,6 +6,7 @@
 
 #include "core/limits.hpp"
 #include "core/text_table.hpp"
+#include "gcode/program_text.hpp"
 #include "pictures/figure/workshop.hpp"
 #include "results/metrics/limit_audit.hpp"
 #include "studies/compare/comparison.hpp"
@@ -27,7 +28,7 @@ struct PlannerRow {
 ///
 /// @param request  its program and curve programs are not looked at
 Expected<std::vector<PlannerRow>> planner_rows(const Request& request,
-                                               const std::vector<std::filesystem::path>& programs);
+                                               const std::vector<gcode::ProgramText>& programs);
 
 /// A line each program and planner.
 TextTable grid_of_planners(const std::vector<PlannerRow>& rows);

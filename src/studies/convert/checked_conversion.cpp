@@ -20,18 +20,18 @@ constexpr double kWrittenRounding = 2e-6;  // of the coordinates in the file [mm
 constexpr std::string_view kReadable = "g6.2";
 
 Expected<Conversion> convert_to(const Job& job, const Dialect& dialect) {
-  TWIN_TRY(gcode::Reader reader, gcode::Reader::open(job.program.string(), job.reading));
-  auto conversion = convert_program(reader, job.reading.start, job.program.filename().string(),
+  gcode::Reader reader(job.program, job.reading);
+  auto conversion = convert_program(reader, job.reading.start, job.program.file().filename().string(),
                                     dialect, job.path, job.planning, job.limits);
   if (!conversion && conversion.error().file.empty()) {
-    conversion.error().file = job.program.string();
+    conversion.error().file = job.program.file().string();
   }
   return conversion;
 }
 
 /// Reads the new program back and holds it against the old one.
 Expected<Deviation> check_conversion(const Job& job, const Conversion& conversion) {
-  TWIN_TRY(gcode::Reader before, gcode::Reader::open(job.program.string(), job.reading));
+  gcode::Reader before(job.program, job.reading);
   gcode::ReaderOptions reading;
   reading.start = job.reading.start;
   auto after = gcode::Reader::from_text(conversion.text, "the converted program", reading);
@@ -42,7 +42,7 @@ Expected<Deviation> check_conversion(const Job& job, const Conversion& conversio
         fmt::format("the converted program would be {:.3f} um from this line, its tolerance "
                     "is {:g} um; nothing was written",
                     units::um_from_mm(deviation.largest), units::um_from_mm(deviation.tolerance)),
-        job.program.string(), static_cast<int>(deviation.line), 0});
+        job.program.file().string(), static_cast<int>(deviation.line), 0});
   }
   return deviation;
 }
@@ -78,7 +78,7 @@ std::string to_table(const Job& job, const std::string& dialect, const CheckedCo
       line("blocks", fmt::to_string(c.blocks), fmt::to_string(made)),
       line("of them in curves", fmt::to_string(c.fitted_blocks), fmt::to_string(c.nurbs.blocks)),
       line("control points", "", fmt::to_string(c.nurbs.control_points))};
-  std::string text = fmt::format("{} for {}\n\n{}", job.program.filename().string(),
+  std::string text = fmt::format("{} for {}\n\n{}", job.program.file().filename().string(),
                                  make_dialect(dialect)->control(),
                                  to_text(table, {.indent = 2, .row_width = 27, .cell_width = 10}));
   if (dialect == "g5.2" && c.nurbs.blocks > 0) {

@@ -14,7 +14,7 @@ namespace twin::studies::convert {
 
 /// A program that is to be converted, and how its runs of short blocks are fitted.
 struct Job {
-  std::filesystem::path program;
+  gcode::ProgramText program;
   gcode::ReaderOptions reading;
   PathSettings path;
   PlanningModel planning;

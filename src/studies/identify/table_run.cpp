@@ -32,14 +32,14 @@ class PlannedList final : public motion::SegmentSource {
 
 }  // namespace
 
-Expected<TableRun> TableRun::plan(const std::filesystem::path& program,
+Expected<TableRun> TableRun::plan(const gcode::ProgramText& program,
                                   const config::MachineFile& machine,
                                   std::optional<double> feedrate) {
   config::MachineFile published = machine;
   published.path.planner = Planner::kPaper;
   TWIN_TRY(const auto points, plan_set_points(program, published, feedrate));
   TableRun run;
-  TWIN_TRY(auto reader, gcode::Reader::open(program.string()));
+  gcode::Reader reader(program);
   for (;;) {
     TWIN_TRY(auto block, reader.next());
     if (!block.has_value()) {
@@ -94,12 +94,12 @@ RunErrors TableRun::run(const config::MachineFile& machine) const {
   return errors;
 }
 
-Expected<std::vector<motion::SetPoint>> plan_set_points(const std::filesystem::path& program,
+Expected<std::vector<motion::SetPoint>> plan_set_points(const gcode::ProgramText& program,
                                                         const config::MachineFile& machine,
                                                         std::optional<double> feedrate) {
   gcode::ReaderOptions options;
   options.feedrate = feedrate;
-  TWIN_TRY(auto reader, gcode::Reader::open(program.string(), options));
+  gcode::Reader reader(program, options);
   PlannedList list;
   TWIN_CHECK(runtime::plan_program(reader, machine, [&](feedrate::PlannedSegment&& planned) {
     list.push(std::move(planned));

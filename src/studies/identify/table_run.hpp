@@ -8,6 +8,7 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "gcode/block.hpp"
+#include "gcode/program_text.hpp"
 #include "motion/interpolator/set_point.hpp"
 #include "motion/servo/axis_servo.hpp"
 
@@ -28,7 +29,7 @@ struct RunErrors {
 class TableRun {
  public:
   /// Plans a program. @param feedrate  replaces the F words [mm/s]
-  static Expected<TableRun> plan(const std::filesystem::path& program,
+  static Expected<TableRun> plan(const gcode::ProgramText& program,
                                  const config::MachineFile& machine,
                                  std::optional<double> feedrate = std::nullopt);
 
@@ -52,7 +53,7 @@ class TableRun {
 /// They do not depend on the table, so one plan serves any number of simulations.
 /// @param feedrate  replaces the F words [mm/s]
 Expected<std::vector<motion::SetPoint>> plan_set_points(
-    const std::filesystem::path& program, const config::MachineFile& machine,
+    const gcode::ProgramText& program, const config::MachineFile& machine,
     std::optional<double> feedrate = std::nullopt);
 
 }  // namespace twin::studies::identify

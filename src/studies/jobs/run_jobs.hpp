@@ -11,6 +11,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
 #include "results/metrics/summary.hpp"
 
@@ -20,7 +21,7 @@ namespace twin::studies::jobs {
 /// One run among several.
 struct Job {
   std::string name;               ///< in front of its errors, as in "oxalis.nc, nurbs"
-  std::filesystem::path program;  ///< NC program
+  gcode::ProgramText program;
   config::MachineFile machine;
   std::optional<double> feedrate;   ///< replaces the program's F words [mm/s]
   std::filesystem::path directory;  ///< of its results; no other job has it

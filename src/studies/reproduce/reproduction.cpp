@@ -34,7 +34,8 @@ class Plan {
     }
     TWIN_TRY(const config::MachineFile machine,
              config::read_machine_file(request_.machine_file, all));
-    TWIN_TRY(const std::filesystem::path program, config::find_program(row.program + ".nc"));
+    TWIN_TRY(const std::filesystem::path file, config::find_program(row.program + ".nc"));
+    TWIN_TRY(const gcode::ProgramText program, gcode::ProgramText::read(file));
     const std::size_t first = jobs_.size();
     studies::jobs::Job job{.name = row.name(),
                            .program = program,

@@ -70,7 +70,8 @@ class Rows {
       if (!is_measured(row.table)) {
         continue;
       }
-      TWIN_TRY(std::filesystem::path program, config::find_program(row.program + ".nc"));
+      TWIN_TRY(const std::filesystem::path file, config::find_program(row.program + ".nc"));
+      TWIN_TRY(gcode::ProgramText program, gcode::ProgramText::read(file));
       rows.rows_.push_back({row, std::move(program)});
     }
     return rows;
@@ -106,7 +107,7 @@ class Rows {
  private:
   struct Row {
     PublishedRow row;
-    std::filesystem::path program;
+    gcode::ProgramText program;
   };
   std::vector<Row> rows_;
 };

@@ -6,6 +6,7 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/program_text.hpp"
 
 // No monitor trips on a sound table: every program here, at its own feedrate and at the machine's
 // largest, with limits of a half and less of the defaults.
@@ -31,7 +32,7 @@ TEST_P(SoundTable, TripsNoMonitorWithHalfTheLimits) {
   const fs::path root(TWIN_SOURCE_DIR);
   test::TempFolder folder;
   RunRequest request;
-  request.program = root / "nc_programs" / (program + ".nc");
+  request.program = test::text_of(root / "nc_programs" / (program + ".nc"));
   request.machine = *config::read_machine_file(root / "mjcf" / (machine_name + ".toml"));
   request.directory = folder / "out";
   if (is_fast) {

@@ -11,6 +11,7 @@
 #include "hal/ideal/ideal_machine.hpp"
 #include "studies/compare/comparison_files.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::studies::compare {
 namespace comparison_test {
@@ -31,7 +32,7 @@ std::string arc_program() {
 class ComparisonTest : public ::testing::Test {
  protected:
   ComparisonTest() {
-    request.program = folder.put("arc.nc", arc_program());
+    request.program = test::text_of(folder.put("arc.nc", arc_program()));
     request.machine_file = *config::find_machine();
     request.folder = folder.path();
     request.running.make_machine = [](const config::MachineFile&) {
@@ -69,7 +70,7 @@ TEST_F(ComparisonTest, EachInterpolatorRunsTheSameProgram) {
 
 /// Each update is a better approximation than the one before it.
 TEST_F(ComparisonTest, FluctuationFallsFromUpdateToUpdate) {
-  request.program = *config::find_program("butterfly.nc");
+  request.program = test::text_of(*config::find_program("butterfly.nc"));
   const auto result = compare(request);
   ASSERT_TRUE(result) << to_string(result.error());
   ASSERT_EQ(result->fluctuations.size(), 8U);
@@ -85,7 +86,7 @@ TEST_F(ComparisonTest, FluctuationFallsFromUpdateToUpdate) {
 }
 
 TEST_F(ComparisonTest, ProgramWithoutCurvesHasNoFluctuationToCompare) {
-  request.program = folder.put("lines.nc", "G01 X20 F3000\nY20\nX0\nM30\n");
+  request.program = test::text_of(folder.put("lines.nc", "G01 X20 F3000\nY20\nX0\nM30\n"));
   const auto result = compare(request);
   ASSERT_TRUE(result) << to_string(result.error());
   EXPECT_TRUE(result->fluctuations.empty());

@@ -7,6 +7,7 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/motion.hpp"
 #include "studies/identify/table_run.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::studies::identify {
 namespace axis_model_test {
@@ -81,7 +82,7 @@ double rms(const std::vector<AxisRow>& rows, const std::vector<motion::Reference
 
 TEST(AxisModel, IsTheTableOfMujocoSampleForSampleAndToHalfAPercentInRms) {
   const config::MachineFile file = machine_file();
-  const auto points = plan_set_points(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc", file);
+  const auto points = plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc"), file);
   ASSERT_TRUE(points) << to_string(points.error());
   const Rows mujoco = run_mujoco(file, *points);
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
@@ -96,7 +97,7 @@ TEST(AxisModel, IsTheTableOfMujocoSampleForSampleAndToHalfAPercentInRms) {
 
 TEST(AxisModel, HumAndEncoderPhaseChangeTheRun) {
   config::MachineFile file = machine_file();
-  const auto points = plan_set_points(TWIN_SOURCE_DIR "/nc_programs/square.nc", file);
+  const auto points = plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
   ASSERT_TRUE(points) << to_string(points.error());
   const auto set_points = references(*points, 0);
   const std::vector<AxisRow> base = simulate(axis_setup(file, hal::kX), set_points).rows;
@@ -109,7 +110,7 @@ TEST(AxisModel, HumAndEncoderPhaseChangeTheRun) {
 
 TEST(AxisModel, RecordedVoltsRepeatTheRun) {
   const config::MachineFile file = machine_file();
-  const auto points = plan_set_points(TWIN_SOURCE_DIR "/nc_programs/square.nc", file);
+  const auto points = plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
   ASSERT_TRUE(points) << to_string(points.error());
   const AxisSetup setup = axis_setup(file, hal::kY);
   const std::vector<AxisRow> closed = simulate(setup, references(*points, 1)).rows;

@@ -12,6 +12,7 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::studies::identify {
 
@@ -72,7 +73,7 @@ inline double run_on(const config::MachineFile& machine, const std::string& prog
                      const std::filesystem::path& folder) {
   hal::mujoco::MujocoMachine table(machine.table);
   runtime::RunRequest request;
-  request.program = std::string(TWIN_SOURCE_DIR "/nc_programs/") + program;
+  request.program = test::text_of(std::string(TWIN_SOURCE_DIR "/nc_programs/") + program);
   request.machine = machine;
   request.hal = &table;
   request.directory = folder;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::studies::jobs {
 namespace run_jobs_test {
@@ -16,7 +17,7 @@ using ::testing::StartsWith;
 Job make_job(const test::TempFolder& folder, const std::string& name, const std::string& program) {
   Job job;
   job.name = name;
-  job.program = folder.put(name + ".nc", program);
+  job.program = test::text_of(folder.put(name + ".nc", program));
   job.directory = folder / name;
   job.has_machine = false;
   return job;

@@ -8,6 +8,7 @@
 #include "runtime/run.hpp"
 #include "studies/identify/table_run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/program_text.hpp"
 
 namespace twin::studies::reproduce {
 namespace table_fit_test {
@@ -37,7 +38,7 @@ TEST(TableFit, ShareCostRisesWhereTheCountingSharesAre) {
 TEST(TableRun, HasTheErrorsOfARunOnTheTableOfMujoco) {
   const test::TempFolder folder;
   runtime::RunRequest request;
-  request.program = TWIN_SOURCE_DIR "/nc_programs/oxalis.nc";
+  request.program = test::text_of(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc");
   request.machine = machine_file();
   request.machine.path.planner = Planner::kPaper;
   hal::mujoco::MujocoMachine table(request.machine.table);
@@ -45,7 +46,7 @@ TEST(TableRun, HasTheErrorsOfARunOnTheTableOfMujoco) {
   request.directory = folder / "out";
   const auto run = runtime::run_program(request);
   ASSERT_TRUE(run && run->summary.run);
-  const auto planned = studies::identify::TableRun::plan(request.program.file, request.machine);
+  const auto planned = studies::identify::TableRun::plan(request.program, request.machine);
   ASSERT_TRUE(planned);
   const studies::identify::RunErrors errors = planned->run(request.machine);
   const results::MachineResults& judge = *run->summary.run;
