@@ -13,8 +13,8 @@
 
 namespace twin {
 
-/// A column of a trace. A trace is a table with one row for each interpolation period; manual.md
-/// lists its columns.
+/// A column of a trace. A trace is a table with one row for each interpolation period;
+/// docs/manual.md lists its columns.
 struct TraceColumn {
   /// Kind of the numbers in the column.
   enum class Kind {
