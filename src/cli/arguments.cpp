@@ -7,7 +7,7 @@
 
 #include "cli/options.hpp"
 #include "cli/usage.hpp"
-#include "core/version.hpp"
+#include "core/this_program.hpp"
 
 namespace twin::cli {
 namespace {

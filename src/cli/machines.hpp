@@ -5,7 +5,7 @@
 #include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 #include "session/machine.hpp"
 
 /// From the options of a command to machine file and machine.

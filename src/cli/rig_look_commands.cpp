@@ -11,8 +11,8 @@
 #include "cli/machines.hpp"
 #include "cli/rigs.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
+#include "hal/rig/cards.hpp"
 #include "hal/rig/io_port/find_card.hpp"
-#include "hal/rig/rig_view.hpp"
 
 // twin rig probe and monitor: the rig is looked at and nothing moves.
 namespace twin::cli {

@@ -6,7 +6,7 @@
 #include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/rig/assemble/find_rig.hpp"
+#include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/rig_machine.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "core/path_settings.hpp"
 #include "feedrate/planned_segment.hpp"
 #include "gcode/reader.hpp"
 #include "results/metrics/running.hpp"
@@ -43,7 +44,7 @@ Expected<PlanFigures> plan_program(
 
 /// The figures of a plan where the summary has them.
 ///
-/// @param is_certified  the deviation is a certified one: planning.planner
-void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified);
+/// @param planner  that made the plan; the certified one has certified its deviation
+void put_into(results::Summary& summary, const PlanFigures& figures, Planner planner);
 
 }  // namespace twin::runtime

@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "gcode/reader.hpp"
 #include "results/metrics/block_distance.hpp"
-#include "results/trace/pen.hpp"
+#include "results/trace/columns.hpp"
 
 namespace twin::session {
 namespace {

@@ -42,7 +42,8 @@ double block_length(const gcode::Block& block, View view) noexcept;
 /// is sampled every 15 deg. Around each sample that is lower than its neighbours, Newton's method
 /// inside a bracket (core/root.hpp) finds the root of D'(f) to 1e-13 of the way; a helix has a
 /// minimum on each turn. A tilted arc that is seen along Z is an ellipse, whose twin minima may lie
-/// as close as they like; it is sampled finer and finer instead.
+/// as close as they like; it is sampled finer and finer instead. On a NURBS the samples are those of its
+/// arc length.
 ///
 /// @param point  [mm]
 /// @param from, to  fractions, 0 <= from <= to <= 1

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "motion/servo/gains.hpp"
+#include "motion/motion_settings.hpp"
 
 namespace twin::studies::circular {
 

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "motion/servo/axis_scaling.hpp"
+#include "motion/servo/axis_servo.hpp"
 
 namespace twin::studies::identify {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "motion/servo/gains.hpp"
+#include "motion/motion_settings.hpp"
 #include "studies/identify/axis_problem.hpp"
 
 namespace twin::studies::identify {
