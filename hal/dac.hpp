@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <cstdint>
 
 namespace twin::hal {
@@ -14,12 +17,22 @@ class Dac {
   static constexpr double kRange = 10.0;  ///< [V]
 
   /// @param bits resolution n, 2 to 48
-  explicit Dac(int bits) noexcept;
+  explicit Dac(int bits) noexcept
+      : step_(std::ldexp(2.0 * kRange, -bits)), half_(std::int64_t{1} << (bits - 1)) {
+    assert(bits >= 2 && bits <= 48);
+  }
 
   /// Code for a voltage [V], which must be finite. Real-time safe.
-  std::int64_t code(double volts) const noexcept;
+  std::int64_t code(double volts) const noexcept {
+    // Limited before it is rounded, so that no voltage overflows the integer.
+    const double limited = std::clamp(volts, -2.0 * kRange, 2.0 * kRange);
+    const std::int64_t code = std::llround(limited / step_) + half_;
+    return std::clamp<std::int64_t>(code, 0, 2 * half_ - 1);
+  }
   /// Voltage at the terminals for a code [V]. Real-time safe.
-  double volts(std::int64_t code) const noexcept;
+  double volts(std::int64_t code) const noexcept {
+    return static_cast<double>(code - half_) * step_;
+  }
   /// What becomes of a voltage [V]: rounded to a code and limited. Real-time safe.
   double convert(double volts_in) const noexcept { return volts(code(volts_in)); }
   /// One step q [V].

@@ -4,13 +4,21 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "hal/signals.hpp"
+#include "twin/machine.hpp"
 
-/// The seam between controller and plant (twin/machine.hpp), under its names in this room.
+/// The seam between controller and plant, and the signals at the wires between them
+/// (twin/machine.hpp), under their names in this room.
 namespace twin::hal {
 
+using twin::Axis;
+using twin::Inputs;
+using twin::kServoAxes;
+using twin::kX;
+using twin::kY;
 using twin::Machine;
 using twin::MachineInfo;
+using twin::Outputs;
+using twin::Truth;
 using State = MachineState;
 using Status = MachineStatus;
 

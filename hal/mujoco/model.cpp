@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "hal/mujoco/mujoco_errors.hpp"
 #include "hal/mujoco/mujoco_library.hpp"
 
 namespace twin::hal::mujoco {

@@ -5,8 +5,6 @@
 
 #include <cassert>
 
-#include "hal/mujoco/mujoco_errors.hpp"
-
 namespace twin::hal::mujoco {
 namespace {
 
@@ -45,12 +43,17 @@ Expected<void> check_version(const MujocoNames& names) {
   return {};
 }
 
-Expected<void> take_handlers(const MujocoNames& names) {
+void throw_error(const char* text) { throw MujocoError(text); }
+void ignore_warning(const char* /*text*/) {}
+
+/// Sets what MuJoCo calls with the text of an error or a warning, for the whole process.
+Expected<void> set_handlers(const MujocoNames& names) {
   decltype(&::mju_user_error) error = nullptr;
   decltype(&::mju_user_warning) warning = nullptr;
   TWIN_CHECK(names.take(error, "mju_user_error"));
   TWIN_CHECK(names.take(warning, "mju_user_warning"));
-  install_handlers(*error, *warning);
+  *error = throw_error;
+  *warning = ignore_warning;
   return {};
 }
 
@@ -63,7 +66,7 @@ Expected<MujocoLibrary> MujocoLibrary::open(const std::string& file) {
   }
   const MujocoNames names(handle, file);
   TWIN_CHECK(check_version(names));
-  TWIN_CHECK(take_handlers(names));
+  TWIN_CHECK(set_handlers(names));
   MujocoLibrary library;
   TWIN_CHECK(names.take(library.load_xml, "mj_loadXML"));
   TWIN_CHECK(names.take(library.delete_model, "mj_deleteModel"));

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 
 /// Every number of the simulated table, with units. The values are those of mjcf/xy_table.toml;
 /// where each comes from is said in mjcf/README.md.

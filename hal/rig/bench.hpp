@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 
 namespace twin::hal::rig {
 

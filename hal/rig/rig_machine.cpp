@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "hal/rig/drive_check.hpp"
+#include "hal/rig/servopack.hpp"
 
 namespace twin::hal::rig {
 

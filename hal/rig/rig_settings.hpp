@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "hal/machine.hpp"
 #include "hal/rig/io_port/io_port.hpp"
-#include "hal/signals.hpp"
 
 /// Everything about cards, wires and signals of the real rig that can differ from rig to rig or is
 /// not confirmed by a source; section [rig] of the machine file.

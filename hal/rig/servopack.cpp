@@ -1,5 +1,7 @@
 #include "hal/rig/servopack.hpp"
 
+#include <fmt/format.h>
+
 namespace twin::hal::rig {
 namespace {
 
@@ -8,6 +10,12 @@ constexpr unsigned mask_of(const Line& line) { return 1u << static_cast<unsigned
 double signed_scale(double setting, double table, bool reversed) noexcept {
   const double scale = setting != 0.0 ? setting : table;
   return reversed ? -scale : scale;
+}
+
+constexpr char kAxisNames[] = "xy";
+
+std::string level_text(const Line& line) {
+  return fmt::format("DI {} is {}", line.channel, line.when == Level::kHigh ? "high" : "low");
 }
 
 }  // namespace
@@ -56,6 +64,37 @@ double Servopack::mm_per_count(double table) const noexcept {
 
 double Servopack::mm_per_s_per_volt(double table) const noexcept {
   return signed_scale(wiring_.mm_per_s_per_volt, table, wiring_.vref_reversed);
+}
+
+bool has_alarm(const RigSettings& settings, std::uint16_t inputs) noexcept {
+  for (const AxisWiring& axis : settings.axis) {
+    if (is_given(axis.alarm, inputs)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Expected<void> check_drives(const RigSettings& settings, std::uint16_t inputs) {
+  for (std::size_t i = 0; i < kServoAxes; ++i) {
+    const AxisWiring& axis = settings.axis[i];
+    if (is_given(axis.alarm, inputs)) {
+      return fail(ErrorCode::kMachine,
+                  fmt::format("axis {}: the drive has an alarm after its reset (ALM, {}): read the "
+                              "drive's panel; without an alarm there, the wire is broken or "
+                              "rig.{}.alarm_level is wrong",
+                              kAxisNames[i], level_text(axis.alarm), kAxisNames[i]));
+    }
+    if (is_given(axis.limit_positive, inputs) && is_given(axis.limit_negative, inputs)) {
+      return fail(ErrorCode::kMachine,
+                  fmt::format("axis {}: both limit switches are off at once (P-OT, {}; N-OT, {}): "
+                              "the cable is off, or limit_positive_level and limit_negative_level "
+                              "of rig.{} are wrong",
+                              kAxisNames[i], level_text(axis.limit_positive),
+                              level_text(axis.limit_negative), kAxisNames[i]));
+    }
+  }
+  return {};
 }
 
 }  // namespace twin::hal::rig

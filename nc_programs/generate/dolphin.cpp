@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "nc_programs/generate/shapes.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 namespace twin::programs {
 namespace {

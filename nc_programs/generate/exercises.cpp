@@ -1,4 +1,4 @@
-#include "nc_programs/generate/exercises.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 #include <fmt/format.h>
 

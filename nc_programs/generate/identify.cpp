@@ -3,7 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "nc_programs/generate/exercises.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 namespace twin::programs {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nc_programs/generate/shapes.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 namespace twin::programs {
 namespace {

@@ -1,10 +1,5 @@
 #include "nc_programs/generate/programs.hpp"
 
-#include "nc_programs/generate/butterfly.hpp"
-#include "nc_programs/generate/exercises.hpp"
-#include "nc_programs/generate/shapes.hpp"
-#include "nc_programs/generate/short_blocks.hpp"
-
 namespace twin::programs {
 
 std::vector<ProgramFile> all_programs() {

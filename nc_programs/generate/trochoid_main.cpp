@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "nc_programs/generate/short_blocks.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 int main(int argc, char** argv) {
   const std::filesystem::path directory = argc > 1 ? argv[1] : ".";

@@ -11,7 +11,7 @@
 
 #include "cli/options.hpp"
 #include "config/nearest_name.hpp"
-#include "core/version.hpp"
+#include "core/this_program.hpp"
 
 namespace twin::cli {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "cli/terminal.hpp"
 #include "core/atomic_file.hpp"
-#include "hal/rig/assemble/look.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
+#include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 #include "session/machine.hpp"
 

@@ -6,10 +6,10 @@
 #include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/rig/assemble/find_rig.hpp"
+#include "hal/machine.hpp"
+#include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/rig_machine.hpp"
-#include "hal/signals.hpp"
 #include "session/machine.hpp"
 
 /// From the options of a command to machine file, machine and rig.

@@ -10,7 +10,7 @@
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
-#include "core/shell_quoted.hpp"
+#include "core/this_program.hpp"
 #include "operator/terminal.hpp"
 
 namespace {

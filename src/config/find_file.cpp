@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "config/nearest_name.hpp"
-#include "core/own_folders.hpp"
+#include "core/this_program.hpp"
 
 namespace twin::config {
 namespace {

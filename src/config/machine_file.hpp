@@ -11,14 +11,12 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
-#include "core/realtime_settings.hpp"
 #include "core/setting.hpp"
+#include "core/wall_clock.hpp"
+#include "hal/machine.hpp"
 #include "hal/mujoco/table_params.hpp"
 #include "hal/rig/rig_settings.hpp"
-#include "hal/signals.hpp"
-#include "motion/interpolator/interpolator_settings.hpp"
-#include "motion/safety/safety_settings.hpp"
-#include "motion/servo/gains.hpp"
+#include "motion/motion_settings.hpp"
 
 /// Settings: the machine file (TOML) and what the command line changes of it.
 namespace twin::config {

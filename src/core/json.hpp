@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,13 +16,17 @@ using Json = nlohmann::ordered_json;
 /// holds it: picometres in a path of metres, and no 0.30000000000000004.
 ///
 /// What is not finite stays so; to_text() writes it as null.
-double rounded(double x);
+inline double rounded(double x) { return std::strtod(fmt::format("{:.9g}", x).c_str(), nullptr); }
 
 /// The same as JSON; null for nothing.
-Json rounded_or_null(const std::optional<double>& x);
+inline Json rounded_or_null(const std::optional<double>& x) {
+  return x ? Json(rounded(*x)) : Json(nullptr);
+}
 
 /// Text of a JSON file: indented, with a line feed at its end. A number that is not finite is
 /// written as null, and bytes that are no UTF-8 are replaced.
-std::string to_text(const Json& json);
+inline std::string to_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace twin

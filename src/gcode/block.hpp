@@ -2,13 +2,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "core/error.hpp"
 #include "core/vec.hpp"
 #include "geometry/arc.hpp"
+#include "geometry/nurbs/arc_length.hpp"
+#include "geometry/nurbs/curve.hpp"
 
 namespace twin::gcode {
-
-struct ProgrammedCurve;
 
 enum class Motion : std::uint8_t {
   kRapid,   ///< G00, a straight line at the rapid feedrate
@@ -26,6 +28,18 @@ enum class PathMode : std::uint8_t {
 
 /// Lengths below this count as none: an arc from a point to itself is a full circle [mm].
 inline constexpr double kNoLength = 1e-9;
+
+/// A NURBS that a program gives by its control points (G05.2, G06.2), measured.
+struct ProgrammedCurve {
+  geometry::Curve curve;                           ///< control points in absolute mm
+  geometry::ArcLength arc_length;                  ///< of the curve
+  std::vector<geometry::CurvatureSample> samples;  ///< ascending in s, both ends included
+};
+
+/// Measures a curve. Refuses one that has no length, and one that stands still somewhere:
+///   |C'(u)| < 1e-7 L / (u_max - u_min),
+/// L its length, at a cusp or where control points coincide; it has no tangent there.
+Expected<std::shared_ptr<const ProgrammedCurve>> make_programmed_curve(geometry::Curve curve);
 
 /// One line of an NC program that moves (or rests), in absolute millimetres.
 struct Block {

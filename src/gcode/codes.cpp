@@ -1,6 +1,8 @@
 #include "gcode/codes.hpp"
 
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace twin::gcode {
 namespace {
@@ -72,6 +74,23 @@ std::size_t index_of(double number, double per_unit, std::size_t size) noexcept 
   return std::abs(scaled - rounded) < 1e-9 ? static_cast<std::size_t>(rounded) : size;
 }
 
+constexpr std::array<LetterKind, 26> make_kinds() {
+  std::array<LetterKind, 26> kinds{};
+  const auto set = [&kinds](std::string_view letters, LetterKind kind) {
+    for (const char letter : letters) {
+      kinds[static_cast<std::size_t>(letter - 'A')] = kind;
+    }
+  };
+  set("GM", LetterKind::kCode);
+  set("XYZIJKR", LetterKind::kDecimal);
+  set("F", LetterKind::kPositive);
+  set("PS", LetterKind::kNotNegative);
+  set("LNT", LetterKind::kCount);
+  return kinds;
+}
+
+constexpr std::array<LetterKind, 26> kKinds = make_kinds();
+
 }  // namespace
 
 std::optional<GCode> find_g(double number) noexcept {
@@ -83,5 +102,7 @@ std::optional<MCode> find_m(double number) noexcept {
   const std::size_t index = index_of(number, 1.0, kMTable.size());
   return index < kMTable.size() ? kMTable[index] : std::nullopt;
 }
+
+LetterKind kind_of(char letter) noexcept { return kKinds[static_cast<std::size_t>(letter - 'A')]; }
 
 }  // namespace twin::gcode

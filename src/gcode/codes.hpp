@@ -84,4 +84,20 @@ std::string refused_g(double number);
 /// Why an M word is refused, by name if it has one.
 std::string refused_m(double number);
 
+/// What the number of a letter may be.
+enum class LetterKind : std::uint8_t {
+  kRefused,      ///< not a letter of this reader
+  kCode,         ///< G and M: looked up by find_g() and find_m()
+  kDecimal,      ///< X Y Z I J K R: any number
+  kPositive,     ///< F: above zero
+  kNotNegative,  ///< P, S: zero or more
+  kCount,        ///< L, N, T: a whole number, zero or more
+};
+
+/// Kind of a letter from 'A' to 'Z'.
+LetterKind kind_of(char letter) noexcept;
+
+/// Why a letter is refused, and what was expected.
+std::string refused_letter(char letter);
+
 }  // namespace twin::gcode

@@ -7,7 +7,6 @@
 #include "gcode/arc_words.hpp"
 #include "gcode/lexer.hpp"
 #include "gcode/line_words.hpp"
-#include "gcode/word_rules.hpp"
 
 namespace twin::gcode {
 

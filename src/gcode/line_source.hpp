@@ -30,7 +30,7 @@ class LineSource {
   Expected<std::optional<std::string_view>> next();
 
   std::int64_t line() const noexcept { return line_; }  ///< number of the last line given, from 1
-  std::int64_t bytes_read() const noexcept { return bytes_; }  ///< bytes given out so far
+  std::int64_t bytes_read() const noexcept { return bytes_; }     ///< bytes given out so far
   std::int64_t size() const noexcept { return program_.size(); }  ///< bytes in all
 
  private:

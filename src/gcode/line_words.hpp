@@ -9,6 +9,7 @@
 
 namespace twin::gcode {
 
+struct ModalState;
 struct Word;
 
 /// The words of one line, sorted by what they are; one object serves line after line.
@@ -78,5 +79,19 @@ class LineWords {
   std::array<MWord, kMGroups> m_{};
   std::array<double, kMGroups> m_number_{};
 };
+
+/// Whether the words of a line belong together.
+///
+///   X Y Z    need a motion word in force, and no G04 beside them
+///   I J K R  need G02 or G03; I J K only those of the plane, and not with R
+///   P        needs G04 or G64, not both
+///   G04      needs P
+///   feed moves need a feedrate, arcs I J K or R
+///
+/// @param state  modal state with the line's own words in force
+Expected<void> check_words(const LineWords& words, const ModalState& state);
+
+/// True if the line asks for a move: axis words, or the centre of a full circle.
+bool asks_for_move(const LineWords& words, const ModalState& state) noexcept;
 
 }  // namespace twin::gcode

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 
 namespace twin::gcode {
 

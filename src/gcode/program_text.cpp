@@ -110,8 +110,8 @@ class LongLineWatch {
 
 struct ProgramText::Data {
   fs::path file;
-  std::string text;      // the program, or empty where it is in the copy
-  Descriptor copy{};     // without a name
+  std::string text;   // the program, or empty where it is in the copy
+  Descriptor copy{};  // without a name
   std::int64_t size = 0;
   std::string sha256;
   std::optional<FileState> state;  // of a regular file

@@ -98,4 +98,26 @@ std::string refused_m(double number) {
   return refused('M', number, kRefusedM, "M00 to M09 or M30");
 }
 
+std::string refused_letter(char letter) {
+  switch (letter) {
+    case 'A':
+    case 'B':
+    case 'C':
+    case 'U':
+    case 'V':
+    case 'W':
+      return fmt::format("there is no axis {}: only X, Y and Z move", letter);
+    case 'D':
+    case 'H':
+      return fmt::format("{} (offset number) is not supported: offsets are zero", letter);
+    case 'O':
+      return "O (program number or subprogram) is not supported: expected one program without it";
+    case 'Q':
+      return "Q (second parameter of G64 or a canned cycle) is not supported";
+    default:
+      return fmt::format(
+          "the letter {} is not known: expected one of F G I J K L M N P R S T X Y Z", letter);
+  }
+}
+
 }  // namespace twin::gcode

@@ -11,7 +11,7 @@ Interpolator::Interpolator(const Program& program, const Settings& settings)
     : data_(std::make_unique<Data>()) {
   const auto& from = Inside::of(program);
   const config::MachineFile& machine = Inside::of(settings);
-  data_->points = value_of(runtime::SetPoints::open(from.source, machine, from.feedrate));
+  data_->points = runtime::SetPoints::open(from.source, machine, from.feedrate);
   data_->period = machine.period;
 }
 

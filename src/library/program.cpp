@@ -10,7 +10,8 @@ namespace twin {
 Program::Program(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 Program Program::from_file(const std::string& name) {
-  return Program(std::make_shared<Data>(Data{value_of(gcode::ProgramText::read(value_of(config::find_program(name)))), std::nullopt}));
+  return Program(std::make_shared<Data>(Data{
+      value_of(gcode::ProgramText::read(value_of(config::find_program(name)))), std::nullopt}));
 }
 
 Program Program::from_text(std::string text, std::string name) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "geometry/smoothing/corner_bump.hpp"
-#include "geometry/smoothing/run_sink.hpp"
 #include "geometry/smoothing/sliding_vector.hpp"
+#include "geometry/smoothing/span_checker.hpp"
 #include "path/arc_pieces.hpp"
 #include "path/segment_writer.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "geometry/nurbs/refine.hpp"
 #include "path/short_block.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "motion/servo/axis_scaling.hpp"
+#include "motion/servo/axis_servo.hpp"
 
 namespace twin::runtime {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "hal/machine.hpp"
 #include "motion/interpolator/interpolator.hpp"
+#include "motion/motion_settings.hpp"
 #include "motion/safety/monitors.hpp"
 #include "motion/servo/axis_servo.hpp"
-#include "motion/servo/gains.hpp"
 #include "results/trace/sample.hpp"
 
 namespace twin::runtime {

@@ -7,7 +7,7 @@
 
 #include "core/limits.hpp"
 #include "core/vec.hpp"
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "runtime/cycle.hpp"
 #include "runtime/feed_control.hpp"

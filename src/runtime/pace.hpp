@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/realtime_settings.hpp"
+#include "core/wall_clock.hpp"
 #include "hal/machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "results/trace/sample.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/monotonic.hpp"
+#include "core/wall_clock.hpp"
 
 namespace twin::runtime {
 namespace {

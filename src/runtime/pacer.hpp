@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/realtime_settings.hpp"
+#include "core/wall_clock.hpp"
 #include "motion/safety/trip.hpp"
 
 namespace twin::runtime {

@@ -82,12 +82,12 @@ Expected<PlanFigures> plan_program(
   return figures;
 }
 
-void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified) {
+void put_into(results::Summary& summary, const PlanFigures& figures, Planner planner) {
   const results::Running& lengths = figures.short_length;
   summary.blocks = {figures.blocks, lengths.count(), lengths.min(), lengths.mean(), lengths.max()};
   summary.segments = {figures.curves + figures.lines + figures.arcs, figures.curves, figures.lines,
                       figures.arcs};
-  if (is_certified) {
+  if (planner == Planner::kCertified) {
     summary.certified = {figures.deviation, figures.spans};
   }
   summary.compression_factor =

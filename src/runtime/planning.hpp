@@ -4,6 +4,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "core/path_settings.hpp"
 #include "feedrate/planned_segment.hpp"
 #include "gcode/reader.hpp"
 #include "results/metrics/running.hpp"
@@ -44,7 +45,7 @@ Expected<PlanFigures> plan_program(
 
 /// Enters the figures of a plan into a summary.
 ///
-/// @param is_certified  whether planning.planner is "certified", so that the deviation is a bound
-void put_into(results::Summary& summary, const PlanFigures& figures, bool is_certified);
+/// @param planner  that made the plan; only of the certified one the deviation is a bound
+void put_into(results::Summary& summary, const PlanFigures& figures, Planner planner);
 
 }  // namespace twin::runtime

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "results/metrics/block_distance.hpp"
 
 namespace twin::runtime {
@@ -134,9 +134,9 @@ Expected<Estimate> estimate_program(const gcode::ProgramText& program,
     estimate.is_whole = estimate.is_whole && (!listen || listen(std::move(planned)));
     return estimate.is_whole && goes_on();
   };
-  TWIN_TRY(estimate.plan,
-           plan_program(reader, machine, sink,
-                        [&](const gcode::Block& block) { return check.add(block); }));
+  TWIN_TRY(estimate.plan, plan_program(reader, machine, sink, [&](const gcode::Block& block) {
+             return check.add(block);
+           }));
   if (!estimate.is_whole) {
     TWIN_CHECK(check_rest(reader, check, goes_on));
   }

@@ -50,7 +50,7 @@ Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
 /// What is known of a program before it runs.
 struct Estimate {
   ProgramFigures program;
-  PlanFigures plan;  ///< its time is the cycle time of a run, less than a period aside
+  PlanFigures plan;      ///< its time is the cycle time of a run, less than a period aside
   bool is_whole = true;  ///< the plan is one of the whole program
 };
 

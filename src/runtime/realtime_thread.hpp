@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/realtime_settings.hpp"
+#include "core/wall_clock.hpp"
 
 namespace twin::runtime {
 

@@ -12,7 +12,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/atomic_file.hpp"
-#include "core/version.hpp"
+#include "core/this_program.hpp"
 #include "hal/active_machine.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/realtime_thread.hpp"
@@ -216,7 +216,7 @@ results::Summary Run::summarise(double wall_time) {
   summary.interpolator = kCurveNames[static_cast<std::size_t>(machine.path.curves)];
   summary.simulated = request_.hal == nullptr || request_.hal->info().simulated;
   summary.period = machine.period;
-  put_into(summary, figures, machine.path.planner == Planner::kCertified);
+  put_into(summary, figures, machine.path.planner);
   summary.planned_time = outlook_.plan ? outlook_.plan->time : figures.time;
   summary.overrides = feed_.records();
   summary.notes = machine.notes;

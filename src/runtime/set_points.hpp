@@ -26,8 +26,8 @@ class SetPoints {
  public:
   /// @param feedrate  replaces the program's F words [mm/s]
   static std::unique_ptr<SetPoints> open(const gcode::ProgramText& program,
-                                                   const config::MachineFile& machine,
-                                                   const std::optional<double>& feedrate = {});
+                                         const config::MachineFile& machine,
+                                         const std::optional<double>& feedrate = {});
   SetPoints(const SetPoints&) = delete;
   SetPoints& operator=(const SetPoints&) = delete;
   ~SetPoints() = default;

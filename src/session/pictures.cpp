@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "core/vec.hpp"
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "gcode/reader.hpp"
 #include "pictures/plot/figures.hpp"
 #include "pictures/video/video.hpp"
 #include "results/metrics/block_distance.hpp"
-#include "results/trace/pen.hpp"
+#include "results/trace/columns.hpp"
 
 namespace twin::session {
 namespace {

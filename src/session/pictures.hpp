@@ -29,9 +29,9 @@ Expected<TraceOrigin> read_origin(const std::filesystem::path& folder);
 
 /// What the figures of a folder are drawn from.
 struct FigureRequest {
-  std::filesystem::path folder;   ///< holds trace.csv; the figures go to its folder plots
+  std::filesystem::path folder;  ///< holds trace.csv; the figures go to its folder plots
   std::optional<gcode::ProgramText> program;  ///< NC program; none: its path is not drawn
-  std::string title;              ///< above each figure
+  std::string title;                          ///< above each figure
   TraceKind kind = TraceKind::kRun;
 };
 

@@ -41,7 +41,8 @@ std::string Session::title() const {
 
 Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   runtime::RunRequest run;
-  TWIN_TRY(text_, gcode::ProgramText::read(program_, {.folder = request_.folder, .stop = attendance.stop}));
+  TWIN_TRY(text_, gcode::ProgramText::read(program_,
+                                           {.folder = request_.folder, .stop = attendance.stop}));
   run.program = text_;
   run.machine = request_.machine;
   run.hal = hal_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/nurbs/arc_length.hpp"
-#include "geometry/nurbs/circle.hpp"
+#include "geometry/nurbs/curve.hpp"
 #include "geometry/nurbs/deviation.hpp"
 #include "geometry/nurbs/fit.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "gcode/reader.hpp"
 
 namespace twin::gcode {

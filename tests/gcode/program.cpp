@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 
 namespace twin::gcode {
 namespace {

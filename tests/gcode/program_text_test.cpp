@@ -44,7 +44,8 @@ TEST(ProgramText, IsTheBytesOfTheFileInMemoryAndOnDisk) {
     EXPECT_EQ(program.sha256(), ProgramText::from_text(text, "text").sha256());
     std::string middle(5, '?');
     const std::size_t at = text.size() / 2;
-    EXPECT_EQ(*program.copy(static_cast<std::int64_t>(at), middle), std::min(text.size() - at, 5UL));
+    EXPECT_EQ(*program.copy(static_cast<std::int64_t>(at), middle),
+              std::min(text.size() - at, 5UL));
     EXPECT_EQ(middle.substr(0, std::min(text.size() - at, 5UL)), text.substr(at, 5));
     EXPECT_EQ(*program.copy(program.size() + 100, middle), 0U);
   }

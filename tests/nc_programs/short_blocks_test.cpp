@@ -1,4 +1,4 @@
-#include "nc_programs/generate/short_blocks.hpp"
+#include "nc_programs/generate/programs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "tests/support/blocks.hpp"
 
 namespace twin::path {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::runtime {
 namespace program_check_test {

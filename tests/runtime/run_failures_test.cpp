@@ -7,8 +7,8 @@
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/support/fake_machine.hpp"
 #include "tests/support/faulty_machine.hpp"
-#include "tests/support/trace_rows.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // What throws or trips in a run: the machine is off, the trace is kept, the run says why.
 namespace twin::runtime {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "runtime/run.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::runtime {
 
@@ -18,7 +18,8 @@ class RunProgram : public ::testing::Test {
     EXPECT_TRUE(read);
     request.machine = *read;
     request.directory = folder / "out";
-    request.program = test::text_of(folder.put("small.nc", "G01 X10 F3000\nG03 X20 Y10 R10\nG01 Y20\nX0 Y0\n"));
+    request.program =
+        test::text_of(folder.put("small.nc", "G01 X10 F3000\nG03 X20 Y10 R10\nG01 Y20\nX0 Y0\n"));
   }
   Expected<RunResult> run(hal::Machine* machine) {
     request.hal = machine;

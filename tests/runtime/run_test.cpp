@@ -12,8 +12,8 @@
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/support/fake_machine.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/trace_rows.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/trace_rows.hpp"
 
 namespace twin::runtime {
 namespace run_test {
@@ -74,7 +74,8 @@ TEST_F(RunProgram, TwoRunsLeaveTheSameTrace) {
 class Interrupted : public RunProgram {
  protected:
   Expected<RunResult> run_until(std::int64_t last_write) {
-    request.program = test::text_of(folder.put("long.nc", "G01 X100 F3000\nG03 X150 Y50 R50\nG01 Y100\nX0 Y0\n"));
+    request.program =
+        test::text_of(folder.put("long.nc", "G01 X100 F3000\nG03 X150 Y50 R50\nG01 Y100\nX0 Y0\n"));
     request.stop = &stop;
     machine.on_write = [this, last_write](std::int64_t write) {
       if (write >= last_write) {

@@ -8,8 +8,8 @@
 
 #include "hal/ideal/ideal_machine.hpp"
 #include "tests/runtime/run_fixture.hpp"
-#include "tests/support/trace_rows.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/trace_rows.hpp"
 
 // Set points one by one, for a loop of one's own: the same ones that a run has.
 namespace twin::runtime {

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/rig/guard/guard_page.hpp"
+#include "hal/rig/guard/guard_protocol.hpp"
 #include "tests/support/files.hpp"
 
 namespace twin::test {

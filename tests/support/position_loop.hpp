@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "hal/machine.hpp"
-#include "motion/servo/axis_scaling.hpp"
 #include "motion/servo/axis_servo.hpp"
 #include "tests/support/motions.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "hal/machine.hpp"
 #include "hal/rig/boards/board_registers.hpp"
-#include "hal/signals.hpp"
 
 namespace twin::hal::rig::boards {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/monotonic.hpp"
+#include "core/wall_clock.hpp"
 #include "hal/rig/boards/voltage_range.hpp"
 
 namespace twin::hal::rig::emulator {

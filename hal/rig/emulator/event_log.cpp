@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/monotonic.hpp"
+#include "core/wall_clock.hpp"
+#include "hal/machine.hpp"
 #include "hal/rig/emulator/fault.hpp"
-#include "hal/signals.hpp"
 
 namespace twin::hal::rig::emulator {
 namespace {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 
 namespace twin::hal::rig::emulator {
 namespace {

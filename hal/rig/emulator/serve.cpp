@@ -1,16 +1,22 @@
 #include "hal/rig/emulator/serve.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/prctl.h>
 
+#include <boost/lockfree/spsc_queue.hpp>
+#include <chrono>
 #include <cmath>
 #include <memory>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
-#include "core/monotonic.hpp"
+#include "core/wall_clock.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
 #include "hal/rig/emulator/emulated_rig.hpp"
-#include "hal/rig/emulator/event_teller.hpp"
+#include "hal/rig/emulator/event_log.hpp"
 
 namespace twin::hal::rig::emulator {
 namespace {
@@ -20,6 +26,45 @@ constexpr std::int64_t kControllerCheck = 1'000'000;  // between looks whether i
 
 std::int64_t nanoseconds(double seconds) noexcept {
   return std::llround(seconds * static_cast<double>(kNsPerS));
+}
+
+/// Tells events line by line from a thread of its own, so that a slow terminal or disk does not
+/// hold up the plant.
+class EventTeller {
+ public:
+  /// @param tell  gets each line, without its end
+  explicit EventTeller(const std::function<void(std::string_view)>& tell);
+  /// Tells what is left.
+  ~EventTeller() = default;
+
+  /// Hands an event over. False: too many wait, this one is lost. Real-time safe.
+  bool push(const Event& event) noexcept { return events_.push(event); }
+
+ private:
+  void tell_all();
+
+  const std::function<void(std::string_view)>& tell_;
+  boost::lockfree::spsc_queue<Event> events_{4096};
+  std::jthread thread_;  // last: ends before what it uses
+};
+
+EventTeller::EventTeller(const std::function<void(std::string_view)>& tell)
+    : tell_(tell), thread_([this](const std::stop_token& stop) {
+        // The plant's thread may be a real-time one; this one need not.
+        const sched_param ordinary{};
+        pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+        while (!stop.stop_requested()) {
+          tell_all();
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        tell_all();
+      }) {}
+
+void EventTeller::tell_all() {
+  Event event;
+  while (events_.pop(event)) {
+    tell_(to_string(event));
+  }
 }
 
 /// The process of the emulator: plant, registers and clock.

@@ -2,7 +2,7 @@
 
 #include <time.h>
 
-#include "core/monotonic.hpp"
+#include "core/wall_clock.hpp"
 
 namespace twin::hal::rig::emulator {
 

@@ -11,9 +11,8 @@
 #include <span>
 #include <string>
 
-#include "hal/rig/guard/guard_arguments.hpp"
-#include "hal/rig/guard/guard_loop.hpp"
-#include "hal/rig/guard/guarded_outputs.hpp"
+#include "hal/rig/guard/guard.hpp"
+#include "hal/rig/guard/guard_protocol.hpp"
 
 // twin-guard makes the rig's outputs safe when its controller is gone or silent. The controller
 // starts it, never a user. Its exit status is 0 when the controller has ended.

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/descriptor.hpp"
-#include "hal/rig/guard/guard_arguments.hpp"
+#include "hal/rig/guard/guard_protocol.hpp"
 
 namespace twin::hal::rig::guard {
 namespace {

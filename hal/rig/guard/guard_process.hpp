@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "hal/rig/guard/guard_page.hpp"
+#include "hal/rig/guard/guard_protocol.hpp"
 #include "hal/rig/guard/heartbeat_timer.hpp"
 #include "hal/rig/watch.hpp"
 

@@ -1,15 +1,29 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/vec.hpp"
-#include "geometry/nurbs/banded.hpp"
 #include "geometry/nurbs/curve.hpp"
 
 namespace twin::geometry {
+
+/// Row r of a matrix with two diagonals on either side of the main one: elements (r, r-2) .. (r,
+/// r+2). Elements that would lie outside the matrix are ignored.
+using BandRow = std::array<double, 5>;
+
+/// Solves A x = b for three right-hand sides at once, by elimination without exchange of rows.
+///
+/// Collocation matrices of B-splines are totally positive; for those the growth of rounding errors
+/// without pivoting is no worse than with it, and the band does not widen: O(n).
+///
+/// @param rows  A (n x n), destroyed
+/// @param x     in: b, out: x; one row of three columns each (n x 3)
+/// @note Real-time safe.
+void solve_pentadiagonal(std::span<BandRow> rows, std::span<Vec3> x) noexcept;
 
 /// What a fitted curve must do at one of its ends beyond passing through the point there.
 struct EndCondition {

@@ -7,7 +7,6 @@
 #include "geometry/smoothing/knot_marcher.hpp"
 #include "geometry/smoothing/polygon.hpp"
 #include "geometry/smoothing/quasi_interpolant.hpp"
-#include "geometry/smoothing/run_sink.hpp"
 #include "geometry/smoothing/span_checker.hpp"
 
 namespace twin::geometry {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "feedrate/profile/phases.hpp"
-#include "motion/interpolator/interpolator_settings.hpp"
+#include "motion/motion_settings.hpp"
 #include "path/segment.hpp"
 
 namespace twin::motion {

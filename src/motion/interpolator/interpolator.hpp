@@ -3,11 +3,10 @@
 #include <cstdint>
 
 #include "feedrate/profile/ramps.hpp"
-#include "motion/interpolator/interpolator_settings.hpp"
 #include "motion/interpolator/phase_clock.hpp"
 #include "motion/interpolator/place_marker.hpp"
-#include "motion/interpolator/segment_source.hpp"
 #include "motion/interpolator/set_point.hpp"
+#include "motion/motion_settings.hpp"
 
 namespace twin::motion {
 

@@ -5,9 +5,9 @@
 
 #include "feedrate/planned_segment.hpp"
 #include "motion/interpolator/curve_follower.hpp"
-#include "motion/interpolator/interpolator_settings.hpp"
 #include "motion/interpolator/phase_clock.hpp"
 #include "motion/interpolator/set_point.hpp"
+#include "motion/motion_settings.hpp"
 
 namespace twin::motion {
 

@@ -4,8 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "motion/servo/axis_scaling.hpp"
-
 namespace twin::motion {
 
 AxisServo::AxisServo(const Gains& gains, double mm_per_s_per_volt, double period) noexcept

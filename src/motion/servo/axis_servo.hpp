@@ -1,8 +1,26 @@
 #pragma once
 
-#include "motion/servo/gains.hpp"
+#include <cstdint>
 
+#include "motion/motion_settings.hpp"
+
+/// The position loop of one axis, and the scaling between the wires (counts, volts) and the loop
+/// (mm, mm/s).
 namespace twin::motion {
+
+inline constexpr double kMaxVolts = 10.0;  ///< largest drive command either way [V]
+
+/// Position that encoder counts mean [mm]. @param mm_per_count encoder scale, signed [mm/count]
+constexpr double position_from_counts(std::int64_t counts, double mm_per_count) noexcept {
+  return static_cast<double>(counts) * mm_per_count;
+}
+
+/// Drive command for a velocity [V], not limited.
+/// @param velocity           command velocity [mm/s]
+/// @param mm_per_s_per_volt  V-REF scale of the drive, signed, not zero [mm/s/V]
+constexpr double volts_from_velocity(double velocity, double mm_per_s_per_volt) noexcept {
+  return velocity / mm_per_s_per_volt;
+}
 
 /// Set point of one axis at one instant.
 struct Reference {

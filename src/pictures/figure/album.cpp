@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "core/atomic_file.hpp"
-#include "pictures/plot/draw.hpp"
-#include "pictures/plot/write_table.hpp"
+#include "pictures/plot/gnuplot.hpp"
 
 namespace twin::pictures {
 namespace {

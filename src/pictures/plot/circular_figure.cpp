@@ -8,8 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
-#include "pictures/plot/draw.hpp"
-#include "pictures/plot/write_table.hpp"
+#include "pictures/plot/gnuplot.hpp"
 #include "results/trace/decimator.hpp"
 
 namespace twin::pictures {

@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "pictures/plot/gnuplot.hpp"
 #include "pictures/plot/motion_filter.hpp"
 #include "pictures/plot/normal_error.hpp"
-#include "pictures/plot/write_table.hpp"
 #include "results/trace/columns.hpp"
 #include "results/trace/csv_reader.hpp"
 #include "results/trace/decimator.hpp"
-#include "results/trace/pen.hpp"
 
 namespace twin::pictures {
 namespace {

@@ -1,11 +1,12 @@
 #include "pictures/plot/figures.hpp"
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "core/atomic_file.hpp"
-#include "pictures/plot/draw.hpp"
 #include "pictures/plot/figure_data.hpp"
-#include "pictures/plot/run_origin.hpp"
+#include "pictures/plot/gnuplot.hpp"
 #include "pictures/plot/scripts.hpp"
-#include "pictures/plot/timing_script.hpp"
 #include "results/trace/columns.hpp"
 
 namespace twin::pictures {
@@ -20,6 +21,38 @@ void remove_timing(const fs::path& folder) {
   for (const char* name : {"timing.gp", "timing.png", "timing.svg"}) {
     fs::remove(folder / name, ignored);
   }
+}
+
+/// What summary.json says of the trace beside it, as far as figures show it.
+struct RunOrigin {
+  bool is_simulated = false;  ///< a machine moved, but no metal; false when nothing is known
+  double period = 0.0;        ///< [s]; 0 when nothing is known
+};
+
+/// Reads it from a folder of results; a file that is missing or is none says nothing.
+RunOrigin read_run_origin(const fs::path& directory) {
+  std::ifstream in(directory / "summary.json");
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  RunOrigin origin;
+  if (!json.is_object()) {
+    return origin;
+  }
+  const auto simulated = json.find("simulated");
+  origin.is_simulated = simulated != json.end() && simulated->is_boolean() &&
+                        simulated->get<bool>() && json.contains("machining_time_s");
+  const auto period = json.find("period_s");
+  if (period != json.end() && period->is_number()) {
+    origin.period = period->get<double>();
+  }
+  return origin;
+}
+
+/// "dolphin.nc, simulated": a title that says so where it is.
+std::string title_of(const std::string& title, const RunOrigin& origin) {
+  if (!origin.is_simulated) {
+    return title;
+  }
+  return title.empty() ? "simulated" : title + ", simulated";
 }
 
 }  // namespace

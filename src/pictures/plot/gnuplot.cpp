@@ -11,13 +11,18 @@
 #include <atomic>
 #include <cerrno>
 #include <mutex>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
-#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "results/trace/csv_file.hpp"
 
 namespace twin::pictures {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kMostComplaint = 4096;  // bytes of stderr that are kept
 
@@ -98,8 +103,10 @@ std::string telling_line(const std::string& text) {
   return first;
 }
 
-}  // namespace
-
+/// Runs "gnuplot SCRIPT" in a directory and waits for it.
+///
+/// @param script  file name in that directory
+/// @returns an Error when gnuplot is missing or fails, with the first line of its complaint
 Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::string& script) {
   TWIN_TRY(auto child, start(directory, script));
   const std::string complaints = listen(child.complaints);
@@ -116,6 +123,7 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::st
                                      (directory / script).string(), 0, 0});
 }
 
+/// Runs several scripts, two at a time. @returns the first error, after all have ended
 Expected<void> run_gnuplot(const std::filesystem::path& directory,
                            std::span<const std::string> scripts) {
   std::atomic<std::size_t> next = 0;
@@ -134,6 +142,55 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory,
   work();
   second.join();
   return result;
+}
+
+/// A picture that gnuplot left out although it said nothing, as on a full disk.
+Expected<void> check_pictures(const std::vector<fs::path>& pictures) {
+  for (const fs::path& picture : pictures) {
+    std::error_code error;
+    if (fs::file_size(picture, error) == 0 || error) {
+      return tl::unexpected<Error>(
+          Error{ErrorCode::kFile, "gnuplot did not write this picture", picture.string(), 0, 0});
+    }
+  }
+  return {};
+}
+
+void remove_all(const std::vector<fs::path>& files) {
+  std::error_code ignored;
+  for (const fs::path& file : files) {
+    fs::remove(file, ignored);
+  }
+}
+
+}  // namespace
+
+Expected<void> write_table(const std::filesystem::path& folder, const std::string& name,
+                           std::span<const std::string_view> columns, const results::Table& table) {
+  TWIN_TRY(results::CsvFile file, results::CsvFile::create(folder / (name + ".csv"),
+                                                           folder / (name + ".csv.tmp"), columns));
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    TWIN_CHECK(file.write(table.row(i)));
+  }
+  return file.commit();
+}
+
+Expected<std::vector<fs::path>> draw(const fs::path& folder, std::span<const Script> scripts) {
+  std::vector<fs::path> pictures;
+  std::vector<std::string> names;
+  for (const Script& script : scripts) {
+    names.push_back(script.name + ".gp");
+    pictures.push_back(folder / (script.name + ".png"));
+    pictures.push_back(folder / (script.name + ".svg"));
+    TWIN_CHECK(write_whole_file(folder / names.back(), script.text));
+  }
+  remove_all(pictures);  // no older picture may pass for one of this run
+  auto drawn = run_gnuplot(folder, names).and_then([&] { return check_pictures(pictures); });
+  if (!drawn) {
+    remove_all(pictures);
+    return tl::unexpected(std::move(drawn.error()));
+  }
+  return pictures;
 }
 
 }  // namespace twin::pictures

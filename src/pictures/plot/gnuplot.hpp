@@ -3,22 +3,28 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
+#include "pictures/plot/scripts.hpp"
+#include "results/trace/decimator.hpp"
 
+/// The files of a figure in its folder: its data, its script, and what gnuplot makes of both.
 namespace twin::pictures {
 
-/// Runs "gnuplot SCRIPT" in a directory and waits for it.
-///
-/// The program is started directly, without a shell, so that no name needs quoting.
-///
-/// @param directory  working directory, where script, data and pictures are
-/// @param script     file name in that directory
-/// @returns an Error when gnuplot is missing or fails, with the first line of its complaint
-Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::string& script);
+/// Writes the data of a figure as NAME.csv into a folder.
+Expected<void> write_table(const std::filesystem::path& folder, const std::string& name,
+                           std::span<const std::string_view> columns, const results::Table& table);
 
-/// Runs several scripts, two at a time. @returns the first error, after all have ended
-Expected<void> run_gnuplot(const std::filesystem::path& directory,
-                           std::span<const std::string> scripts);
+/// Writes each script as NAME.gp into a folder and lets gnuplot run it there, two at a time; a
+/// script makes NAME.png and NAME.svg.
+///
+/// Gnuplot is started directly, without a shell, so that no name needs quoting.
+///
+/// @returns the pictures; after an error there are none, an older run's neither. When gnuplot is
+///          missing or fails, the Error has the first line of its complaint
+Expected<std::vector<std::filesystem::path>> draw(const std::filesystem::path& folder,
+                                                  std::span<const Script> scripts);
 
 }  // namespace twin::pictures

@@ -40,4 +40,10 @@ double magnification(double extent, double largest_error_um);
 std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
                                    bool plan_only);
 
+/// The figure of a run on the wall clock, from timing.csv: how many periods over how late they
+/// began, how long their computation took, and when their outputs were written.
+///
+/// @param period  marked by a line [s]; 0: none
+Script timing_script(const std::string& title, double period);
+
 }  // namespace twin::pictures

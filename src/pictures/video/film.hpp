@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "pictures/video/canvas.hpp"
 #include "pictures/video/overlay.hpp"
-#include "pictures/video/pen_trail.hpp"
 #include "pictures/video/table_scene.hpp"
 #include "pictures/video/trace_rows.hpp"
 

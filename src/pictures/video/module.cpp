@@ -1,8 +1,6 @@
-#include "pictures/video/module.hpp"
+#include "pictures/video/renderer.hpp"
 
 #include <type_traits>
-
-#include "pictures/video/renderer.hpp"
 
 extern "C" __attribute__((visibility("default"))) void twin_render_video(
     const twin::pictures::video::VideoInput* input,

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "pictures/video/bounded_queue.hpp"
 #include "pictures/video/film.hpp"
 #include "pictures/video/video_encoder.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/mujoco/model.hpp"
-#include "hal/mujoco/mujoco_errors.hpp"
+#include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/table_pose.hpp"
 #include "pictures/video/mip_texture.hpp"
 #include "pictures/video/offscreen_context.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "results/trace/pen.hpp"
+#include "results/trace/columns.hpp"
 
 namespace twin::pictures::video {
 namespace {

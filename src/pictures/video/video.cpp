@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/own_folders.hpp"
-#include "pictures/video/module.hpp"
+#include "core/this_program.hpp"
+#include "pictures/video/renderer.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 // Mesa keeps what it set up for the first contexts in a list of its own until the process ends.

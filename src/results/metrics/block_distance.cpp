@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "core/root.hpp"
-#include "gcode/programmed_curve.hpp"
-#include "results/metrics/nurbs_distance.hpp"
+#include "gcode/block.hpp"
 
 namespace twin::results {
 namespace {
@@ -31,17 +30,25 @@ ValueAndSlope slope(const geometry::Arc& g, const Vec3& p, View view, double f) 
   return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
 }
 
-/// Minimum of the squared distance within [lo, hi] that holds just one, by Newton's method.
-double refine(const geometry::Arc& g, const Vec3& p, View view, double lo, double hi) noexcept {
-  if (slope(g, p, view, lo).value >= 0.0) {
+/// Minimum of a squared distance within [lo, hi] that holds just one, by Newton's method.
+///
+/// @param slope_at  half the derivative of the squared distance, and the derivative of that
+/// @param same      two arguments so near to each other are one
+template <class Slope>
+double minimum_between(const Slope& slope_at, double lo, double hi, double same) noexcept {
+  if (slope_at(lo).value >= 0.0) {
     return lo;
   }
-  if (slope(g, p, view, hi).value <= 0.0) {
+  if (slope_at(hi).value <= 0.0) {
     return hi;
   }
+  return bracketed_newton(slope_at, lo, hi, 0.5 * (lo + hi), {-1.0, same, same}).x;
+}
+
+/// Minimum of the squared distance from an arc within [lo, hi] that holds just one.
+double refine(const geometry::Arc& g, const Vec3& p, View view, double lo, double hi) noexcept {
   const auto slope_at = [&](double f) { return slope(g, p, view, f); };
-  return bracketed_newton(slope_at, lo, hi, 0.5 * (lo + hi), {-1.0, kSameFraction, kSameFraction})
-      .x;
+  return minimum_between(slope_at, lo, hi, kSameFraction);
 }
 
 /// The same by ever finer sampling, for an arc seen edge-on: its twin minima may be as close as
@@ -101,6 +108,104 @@ NearestPoint nearest_of_arc(const Block& block, const Vec3& p, View view, double
     here = after;
   }
   return place;
+}
+
+constexpr double kSameParameter = 1e-14;  // two parameters that are one, as a share of the domain
+
+/// One look-up: the curve, the point, and how they are seen.
+struct NurbsSearch {
+  const gcode::ProgrammedCurve& programmed;
+  const Vec3& p;
+  View view;
+
+  double squared(double u) const noexcept {
+    return seen(programmed.curve.position(u) - p, view).squaredNorm();
+  }
+
+  /// g and dg/du.
+  ValueAndSlope slope(double u) const noexcept {
+    const geometry::Derivatives at = programmed.curve.derivatives(u);
+    const Vec3 d = seen(at.position - p, view);
+    return {d.dot(at.first), seen(at.first, view).squaredNorm() + d.dot(at.second)};
+  }
+
+  /// Minimum within [lo, hi] that holds just one.
+  double refine(double lo, double hi) const noexcept {
+    const double same = kSameParameter * (programmed.curve.u_max() - programmed.curve.u_min());
+    const auto slope_at = [&](double u) { return slope(u); };
+    return minimum_between(slope_at, lo, hi, same);
+  }
+};
+
+/// Parameters at which a look-up samples: the ends of the range and the samples between them.
+class NurbsNodes {
+ public:
+  NurbsNodes(const gcode::ProgrammedCurve& programmed, double from, double to) noexcept
+      : samples_(programmed.samples) {
+    const auto s_less = [](const geometry::CurvatureSample& a, double s) { return a.s < s; };
+    const double length = programmed.arc_length.length();
+    const auto lo = std::lower_bound(samples_.begin(), samples_.end(), from * length, s_less);
+    const auto hi = std::lower_bound(lo, samples_.end(), to * length, s_less);
+    first_ = lo - samples_.begin();
+    count_ = hi - lo;
+    const auto u_at = [&](double fraction, auto near) {
+      const double guess = near == samples_.end() ? programmed.curve.u_max() : near->u;
+      return programmed.arc_length.u_at(programmed.curve, fraction * length, guess);
+    };
+    begin_ = u_at(from, lo);
+    end_ = u_at(to, hi);
+  }
+
+  std::ptrdiff_t last() const noexcept { return count_ + 1; }
+
+  /// Node i, clamped to 0..last().
+  double at(std::ptrdiff_t i) const noexcept {
+    if (i <= 0) {
+      return begin_;
+    }
+    return i > count_ ? end_ : samples_[static_cast<std::size_t>(first_ + i - 1)].u;
+  }
+
+ private:
+  const std::vector<geometry::CurvatureSample>& samples_;
+  std::ptrdiff_t first_ = 0;
+  std::ptrdiff_t count_ = 0;
+  double begin_ = 0.0;
+  double end_ = 0.0;
+};
+
+/// nearest() of a NURBS block.
+///
+/// The samples of the arc length stand a few degrees of turn apart. Around each sample that is
+/// nearer than its neighbours, the minimum of the distance is the root of
+///   g(u) = (C(u) - p) . C'(u),
+/// which Newton's method finds inside the bracket of both neighbours. The curve itself is
+/// evaluated, and no chord of it.
+NearestPoint nearest_of_nurbs(const Block& block, const Vec3& point, View view, double from,
+                              double to) noexcept {
+  const gcode::ProgrammedCurve& programmed = *block.nurbs;
+  const NurbsSearch search{programmed, point, view};
+  const NurbsNodes nodes(programmed, from, to);
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  double least = kFar;
+  double best = nodes.at(0);
+  double before = kFar;
+  double here = search.squared(nodes.at(0));
+  for (std::ptrdiff_t i = 0; i <= nodes.last(); ++i) {
+    const double after = i < nodes.last() ? search.squared(nodes.at(i + 1)) : kFar;
+    if (here <= before && here <= after) {
+      const double u = search.refine(nodes.at(i - 1), nodes.at(i + 1));
+      if (const double squared = search.squared(u); squared < least) {
+        least = squared;
+        best = u;
+      }
+    }
+    before = here;
+    here = after;
+  }
+  const double s = programmed.arc_length.s_at(programmed.curve, best);
+  return {std::sqrt(least), std::clamp(s / programmed.arc_length.length(), from, to),
+          programmed.curve.position(best)};
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ double block_length(const gcode::Block& block, View view) noexcept;
 /// lower than its neighbours, Newton's method inside a bracket (core/root.hpp) finds the root of
 /// D'(f) to 1e-13 of the length. A tilted arc that is seen along Z is an ellipse. It may have two
 /// minima as close to each other as one likes, so it is sampled more and more finely instead.
+/// On a NURBS the samples are those of its arc length.
 ///
 /// @param point     the position p [mm]
 /// @param from, to  fractions, 0 <= from <= to <= 1

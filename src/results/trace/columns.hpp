@@ -39,6 +39,10 @@ inline constexpr std::string_view kTimingName = "timing.csv";
 /// In the folder of the plots: the feedrate limit over time.
 inline constexpr std::string_view kLimitName = "feedrate_limit.csv";
 
+/// Height of the pen above which it does not draw [mm]. A program that never comes below is drawn
+/// all the same.
+inline constexpr double kPenUp = 0.1;
+
 /// Which columns a trace has.
 enum class Layout {
   kPlan,  ///< set points alone: the first kPlanColumns columns

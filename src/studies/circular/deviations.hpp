@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
-#include "motion/servo/gains.hpp"
+#include "motion/motion_settings.hpp"
 #include "studies/circular/circle_fit.hpp"
 #include "studies/circular/circle_program.hpp"
 

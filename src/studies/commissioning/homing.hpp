@@ -7,7 +7,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 
 namespace twin::studies::commissioning {
 

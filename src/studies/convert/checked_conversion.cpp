@@ -21,8 +21,9 @@ constexpr std::string_view kReadable = "g6.2";
 
 Expected<Conversion> convert_to(const Job& job, const Dialect& dialect) {
   gcode::Reader reader(job.program, job.reading);
-  auto conversion = convert_program(reader, job.reading.start, job.program.file().filename().string(),
-                                    dialect, job.path, job.planning, job.limits);
+  auto conversion =
+      convert_program(reader, job.reading.start, job.program.file().filename().string(), dialect,
+                      job.path, job.planning, job.limits);
   if (!conversion && conversion.error().file.empty()) {
     conversion.error().file = job.program.file().string();
   }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "results/metrics/block_distance.hpp"
 
 namespace twin::studies::convert {

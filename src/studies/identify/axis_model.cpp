@@ -6,7 +6,7 @@
 
 #include "core/units.hpp"
 #include "hal/mujoco/table_settings.hpp"
-#include "motion/servo/axis_scaling.hpp"
+#include "motion/servo/axis_servo.hpp"
 
 namespace twin::studies::identify {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "motion/servo/axis_scaling.hpp"
+#include "motion/servo/axis_servo.hpp"
 #include "studies/identify/judge.hpp"
 
 namespace twin::studies::identify {

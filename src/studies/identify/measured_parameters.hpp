@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/servo/gains.hpp"
+#include "motion/motion_settings.hpp"
 #include "studies/identify/axis_fit.hpp"
 #include "studies/identify/axis_problem.hpp"
 

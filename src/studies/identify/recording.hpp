@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 #include "studies/identify/recording_columns.hpp"
 
 namespace twin::studies::identify {

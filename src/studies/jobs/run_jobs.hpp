@@ -20,7 +20,7 @@ namespace twin::studies::jobs {
 
 /// One run among several.
 struct Job {
-  std::string name;               ///< in front of its errors, as in "oxalis.nc, nurbs"
+  std::string name;  ///< in front of its errors, as in "oxalis.nc, nurbs"
   gcode::ProgramText program;
   config::MachineFile machine;
   std::optional<double> feedrate;   ///< replaces the program's F words [mm/s]

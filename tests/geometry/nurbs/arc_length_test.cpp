@@ -9,7 +9,7 @@
 
 #include "butterfly.hpp"
 #include "geometry/gauss_legendre.hpp"
-#include "geometry/nurbs/circle.hpp"
+#include "geometry/nurbs/curve.hpp"
 #include "geometry/nurbs/fit.hpp"
 #include "random_curve.hpp"
 

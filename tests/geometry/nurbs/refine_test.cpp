@@ -5,7 +5,7 @@
 #include <random>
 
 #include "butterfly.hpp"
-#include "geometry/nurbs/circle.hpp"
+#include "geometry/nurbs/curve.hpp"
 
 namespace twin::geometry {
 namespace refine_test {

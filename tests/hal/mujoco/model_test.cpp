@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hal/mujoco/mujoco_errors.hpp"
 #include "hal/mujoco/mujoco_library.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "tests/support/files.hpp"

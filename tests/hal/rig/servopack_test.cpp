@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/rig/drive_check.hpp"
-
 namespace twin::hal::rig {
 namespace servopack_test {
 

@@ -5,8 +5,8 @@
 
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 // No monitor trips on a sound table: every program here, at its own feedrate and at the machine's
 // largest, with limits of a half and less of the defaults.

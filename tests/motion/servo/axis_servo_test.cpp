@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "motion/servo/axis_scaling.hpp"
-
 namespace twin::motion {
 namespace axis_servo_test {
 

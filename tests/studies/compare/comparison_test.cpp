@@ -10,8 +10,8 @@
 #include "config/find_file.hpp"
 #include "hal/ideal/ideal_machine.hpp"
 #include "studies/compare/comparison_files.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::compare {
 namespace comparison_test {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gcode/programmed_curve.hpp"
+#include "gcode/block.hpp"
 #include "path/path_builder.hpp"
 #include "studies/convert/converter.hpp"
 #include "studies/convert/program_deviation.hpp"

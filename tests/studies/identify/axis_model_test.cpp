@@ -82,7 +82,8 @@ double rms(const std::vector<AxisRow>& rows, const std::vector<motion::Reference
 
 TEST(AxisModel, IsTheTableOfMujocoSampleForSampleAndToHalfAPercentInRms) {
   const config::MachineFile file = machine_file();
-  const auto points = plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc"), file);
+  const auto points =
+      plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc"), file);
   ASSERT_TRUE(points) << to_string(points.error());
   const Rows mujoco = run_mujoco(file, *points);
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
@@ -97,7 +98,8 @@ TEST(AxisModel, IsTheTableOfMujocoSampleForSampleAndToHalfAPercentInRms) {
 
 TEST(AxisModel, HumAndEncoderPhaseChangeTheRun) {
   config::MachineFile file = machine_file();
-  const auto points = plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
+  const auto points =
+      plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
   ASSERT_TRUE(points) << to_string(points.error());
   const auto set_points = references(*points, 0);
   const std::vector<AxisRow> base = simulate(axis_setup(file, hal::kX), set_points).rows;
@@ -110,7 +112,8 @@ TEST(AxisModel, HumAndEncoderPhaseChangeTheRun) {
 
 TEST(AxisModel, RecordedVoltsRepeatTheRun) {
   const config::MachineFile file = machine_file();
-  const auto points = plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
+  const auto points =
+      plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
   ASSERT_TRUE(points) << to_string(points.error());
   const AxisSetup setup = axis_setup(file, hal::kY);
   const std::vector<AxisRow> closed = simulate(setup, references(*points, 1)).rows;

@@ -11,8 +11,8 @@
 #include "config/machine_file.hpp"
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::identify {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::jobs {
 namespace run_jobs_test {

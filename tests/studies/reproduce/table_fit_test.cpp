@@ -7,8 +7,8 @@
 #include "hal/mujoco/mujoco_machine.hpp"
 #include "runtime/run.hpp"
 #include "studies/identify/table_run.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/support/program_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::reproduce {
 namespace table_fit_test {

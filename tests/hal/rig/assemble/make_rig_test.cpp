@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "hal/rig/assemble/look.hpp"
+#include "hal/rig/assemble/rig_ports.hpp"
 #include "tests/support/table_files.hpp"
 
 namespace twin::hal::rig::assemble {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/signals.hpp"
+#include "hal/machine.hpp"
 
 namespace twin::hal::rig::emulator {
 namespace fault_test {
