@@ -13,9 +13,11 @@
 #include "hal/machine.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
+#include "runtime/program_source.hpp"
 #include "runtime/run.hpp"
 #include "session/machine.hpp"
 #include "session/pictures.hpp"
+#include "twin/trace.hpp"
 
 /// One program on one machine, from the machine file to the pictures. Command line, studies and
 /// other programs share this; nothing here prints.
@@ -27,17 +29,25 @@ enum class Pace {
   kWallClock,  ///< the wall clock in any case
 };
 
+/// What a run leaves in its folder.
+enum class Files {
+  kWritten,  ///< trace and summary
+  kNone,     ///< nothing: the rows of the trace go to the sinks alone
+};
+
 /// What is to be run.
 ///
 /// The machine is `hal`; where that is null, `make_machine` makes it; where that is empty too, the
 /// program is planned and nothing moves.
 struct Request {
-  std::string program;  ///< NC program: a path, or a name in nc_programs
+  runtime::ProgramSource program;  ///< NC program: a path, a name in nc_programs, or a text
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured; outlives the session
   MakeMachine make_machine{};      ///< called by Session::open
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
   std::filesystem::path folder;    ///< of the results; empty: renders/NAME of the program
+  Files files = Files::kWritten;
+  std::vector<TraceSink*> sinks{};  ///< get the rows of the trace, besides the files
   Pace pace = Pace::kOwn;
   std::vector<runtime::OverrideChange> overrides{};  ///< of the feedrate, while it moves
   runtime::Until until{};                            ///< ends the motion early
@@ -63,7 +73,8 @@ class Session {
  public:
   static Expected<Session> open(Request request);
 
-  const std::filesystem::path& program() const noexcept { return program_; }
+  /// File of the program, or the name of its text.
+  const std::filesystem::path& program() const noexcept { return request_.program.file; }
   const config::MachineFile& machine() const noexcept { return request_.machine; }
   const std::filesystem::path& folder() const noexcept { return request_.folder; }
   /// The machine that moves; null for a plan.
@@ -91,10 +102,9 @@ class Session {
                               std::function<void(double)> progress = {}) const;
 
  private:
-  Session(Request request, std::filesystem::path program, std::unique_ptr<hal::Machine> made);
+  Session(Request request, std::unique_ptr<hal::Machine> made);
 
   Request request_;
-  std::filesystem::path program_;
   std::unique_ptr<hal::Machine> made_;
   hal::Machine* hal_;
 };
