@@ -12,7 +12,7 @@
 #include "session/pictures.hpp"
 #include "session/session.hpp"
 
-// The commands that take one program from its text to the pictures.
+// The commands that read a program, run it and show what came of it; and help.
 namespace twin::cli {
 
 // Run and plan.
@@ -118,11 +118,6 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
   return make_pictures(session, arguments.results, {});
 }
 
-Expected<void> execute(const TextArguments& arguments, const Environment&) {
-  fmt::print("{}", arguments.text);
-  return {};
-}
-
 // Render.
 
 Expected<void> execute(const RenderArguments& arguments, const Environment&) {
@@ -185,6 +180,13 @@ Expected<void> execute(const CheckArguments& arguments, const Environment& envir
     }
   }
   return result;
+}
+
+// Help and version.
+
+Expected<void> execute(const TextArguments& arguments, const Environment&) {
+  fmt::print("{}", arguments.text);
+  return {};
 }
 
 }  // namespace twin::cli
