@@ -26,6 +26,16 @@ Expected<std::vector<studies::identify::Recording>> read_recordings(
   return recordings;
 }
 
+/// The full keys that an option has named.
+Expected<std::vector<std::string>> keys_of(const std::string& option,
+                                           const std::vector<std::string>& names,
+                                           const config::MachineFile& machine) {
+  return studies::identify::full_keys(names, machine).map_error([&](Error error) {
+    error.message = option + ": " + error.message;
+    return error;
+  });
+}
+
 /// Fits the machine to traces, writes the machine file, and identify.json beside it.
 Expected<void> identify_traces(const IdentifyArguments& arguments,
                                const config::MachineFile& machine,
@@ -34,8 +44,8 @@ Expected<void> identify_traces(const IdentifyArguments& arguments,
   fit.evaluations = arguments.evaluations.value_or(fit.evaluations);
   fit.seed = arguments.seed;
   fit.stop = &stop;
-  TWIN_TRY(fit.fixed, studies::identify::full_keys(arguments.fixed, machine));
-  TWIN_TRY(fit.freed, studies::identify::full_keys(arguments.freed, machine));
+  TWIN_TRY(fit.fixed, keys_of("--fix", arguments.fixed, machine));
+  TWIN_TRY(fit.freed, keys_of("--free", arguments.freed, machine));
   TWIN_TRY(const auto recordings, read_recordings(arguments, machine));
   Expected<studies::identify::Identification> result;
   {

@@ -12,20 +12,28 @@
 #include "session/pictures.hpp"
 #include "session/session.hpp"
 
-// The commands that take one program from its text to the pictures.
+// The commands that read a program, run it and show what came of it; and help.
 namespace twin::cli {
 
 // Run and plan.
 
 namespace {
 
+/// The program that a command names.
+Expected<gcode::ProgramText> read_program(const std::string& name, const std::filesystem::path& out,
+                                          const std::atomic<bool>& stop) {
+  TWIN_TRY(const std::filesystem::path file, config::find_program(name));
+  return gcode::ProgramText::read(file, {.folder = out, .stop = &stop});
+}
+
 /// What run and plan have in common.
 Expected<session::Request> request_of(const ProgramArguments& program,
                                       const MachineArguments& machine, const std::string& overrides,
-                                      const ResultArguments& results) {
+                                      const ResultArguments& results,
+                                      const std::atomic<bool>& stop) {
   session::Request request;
   TWIN_TRY(request.machine, read_machine(machine, results.verbosity));
-  request.program = program.name;
+  TWIN_TRY(request.program, read_program(program.name, results.folder, stop));
   request.feedrate = program.feedrate;
   request.folder = results.folder;
   if (!overrides.empty()) {
@@ -94,8 +102,9 @@ Expected<void> make_pictures(const session::Session& session, const ResultArgume
 }  // namespace
 
 Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
-  TWIN_TRY(session::Request request, request_of(arguments.program, arguments.machine,
-                                                arguments.overrides, arguments.results));
+  TWIN_TRY(session::Request request,
+           request_of(arguments.program, arguments.machine, arguments.overrides, arguments.results,
+                      environment.stop));
   request.command = environment.command_line;
   request.make_machine = machine_of(arguments.hal);
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
@@ -107,8 +116,9 @@ Expected<void> execute(const RunArguments& arguments, const Environment& environ
 }
 
 Expected<void> execute(const PlanArguments& arguments, const Environment& environment) {
-  TWIN_TRY(session::Request request, request_of(arguments.program, arguments.machine,
-                                                arguments.overrides, arguments.results));
+  TWIN_TRY(session::Request request,
+           request_of(arguments.program, arguments.machine, arguments.overrides, arguments.results,
+                      environment.stop));
   request.command = environment.command_line;
   request.has_bound = arguments.has_bound;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
@@ -118,11 +128,6 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
   return make_pictures(session, arguments.results, {});
 }
 
-Expected<void> execute(const TextArguments& arguments, const Environment&) {
-  fmt::print("{}", arguments.text);
-  return {};
-}
-
 // Render.
 
 namespace {
@@ -130,9 +135,7 @@ namespace {
 /// The program of a trace, where it is still there and still the same.
 std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
                                              const std::atomic<bool>& stop) {
-  const auto file = config::find_program(origin.program);
-  auto program = file ? gcode::ProgramText::read(*file, {.folder = {}, .stop = &stop})
-                      : tl::unexpected(file.error());
+  auto program = read_program(origin.program, {}, stop);
   const bool is_same = program && program->sha256() == origin.program_sha256;
   return is_same ? std::optional(*std::move(program)) : std::nullopt;
 }
@@ -149,8 +152,8 @@ Expected<void> execute(const RenderArguments& arguments, const Environment& envi
   if (arguments.has_plots) {
     Progress progress("plots", arguments.verbosity);
     progress.show(0.0);
-    TWIN_CHECK(session::draw_figures({arguments.folder, program_of(origin, environment.stop),
-                                      origin.program, origin.kind}));
+    TWIN_CHECK(session::draw_figures(
+        {arguments.folder, program_of(origin, environment.stop), origin.program, origin.kind}));
   }
   if (arguments.video.is_wanted) {
     Progress progress("video", arguments.verbosity);
@@ -166,8 +169,7 @@ namespace {
 
 Expected<void> check_program_of(const std::string& name, const CheckArguments& arguments,
                                 const config::MachineFile& machine, const std::atomic<bool>& stop) {
-  TWIN_TRY(const auto file, config::find_program(name));
-  TWIN_TRY(const auto program, gcode::ProgramText::read(file, {.folder = {}, .stop = &stop}));
+  TWIN_TRY(const gcode::ProgramText program, read_program(name, {}, stop));
   gcode::ReaderOptions reading;
   reading.feedrate = arguments.feedrate;
   TWIN_TRY(const runtime::Estimate estimate,
@@ -177,9 +179,9 @@ Expected<void> check_program_of(const std::string& name, const CheckArguments& a
     fmt::print(
         "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
         "cycle time {:.3f} s\n",
-        file.string(), figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
-        figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
-        estimate.plan.time);
+        program.file().string(), figures.blocks, figures.length, figures.box_min.x(),
+        figures.box_max.x(), figures.box_min.y(), figures.box_max.y(), figures.box_min.z(),
+        figures.box_max.z(), estimate.plan.time);
   }
   return {};
 }
@@ -199,6 +201,13 @@ Expected<void> execute(const CheckArguments& arguments, const Environment& envir
     }
   }
   return result;
+}
+
+// Help and version.
+
+Expected<void> execute(const TextArguments& arguments, const Environment&) {
+  fmt::print("{}", arguments.text);
+  return {};
 }
 
 }  // namespace twin::cli

@@ -1,7 +1,7 @@
-#include "runtime/run.hpp"
+#include "twin/run.hpp"
 
 #include "library/inside.hpp"
-#include "session/results.hpp"
+#include "session/session.hpp"
 
 namespace twin {
 namespace {
@@ -9,24 +9,20 @@ namespace {
 static_assert(static_cast<int>(runtime::MotionState::kEnded) ==
               static_cast<int>(Panel::State::kEnded));
 
-runtime::RunRequest request_of(const Program& program, const Settings& settings, Machine& machine,
-                               const RunOptions& options) {
-  runtime::RunRequest request;
+session::Request request_of(const Program& program, const Settings& settings, Machine& machine,
+                            const RunOptions& options) {
+  session::Request request;
   request.program = Inside::of(program).source;
   request.feedrate = Inside::of(program).feedrate;
   request.machine = Inside::of(settings);
   request.hal = &machine;
-  request.directory = options.folder;
+  request.folder = options.folder;
+  request.files = options.folder.empty() ? session::Files::kNone : session::Files::kWritten;
   request.sinks = options.sinks;
-  request.is_wall_clock = options.is_wall_clock || machine.info().keeps_own_time;
+  request.pace = options.is_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   for (const OverrideChange& change : options.overrides) {
     request.overrides.push_back({change.time, change.percent});
   }
-  if (options.panel != nullptr) {
-    request.panel = &Inside::of(*options.panel).panel;
-    request.stop = &Inside::of(*options.panel).stop;
-  }
-  request.progress = options.progress;
   return request;
 }
 
@@ -46,15 +42,16 @@ Panel::Display Panel::display() const noexcept {
 
 Run run(const Program& program, const Settings& settings, Machine& machine,
         const RunOptions& options) {
-  const runtime::RunRequest request = request_of(program, settings, machine, options);
-  const runtime::RunResult result = value_of(runtime::run_program(request));
-  if (!options.folder.empty()) {
-    check(session::write_summary(options.folder, result));
-    if (!result.failure) {
-      session::remove_stale_results(options.folder);
-    }
+  session::Session session =
+      value_of(session::Session::open(request_of(program, settings, machine, options)));
+  session::Attendance attendance;
+  if (options.panel != nullptr) {
+    attendance.panel = &Inside::of(*options.panel).panel;
+    attendance.stop = &Inside::of(*options.panel).stop;
   }
-  return {Inside::summary(result.summary, request.machine.limits), result.failure};
+  attendance.progress = options.progress;
+  const runtime::RunResult result = value_of(session.run(attendance));
+  return {Inside::summary(result.summary, session.machine().limits), result.failure};
 }
 
 }  // namespace twin

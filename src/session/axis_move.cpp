@@ -16,15 +16,16 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move,
   Request request;
   request.folder = result_folder(move.folder, "rig_" + move.name);
   const std::filesystem::path program = request.folder / (move.name + ".nc");
-  request.program = program.string();
   request.machine = machine;
   request.hal = &hal;
   request.until = move.until;
   request.command = move.command;
+  const std::string text =
+      fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == hal::kX ? 'X' : 'Y', move.distance,
+                  units::mm_per_min_from_mm_per_s(move.feedrate));
   TWIN_CHECK(prepare_output_file(program));
-  TWIN_CHECK(write_whole_file(
-      program, fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == hal::kX ? 'X' : 'Y',
-                           move.distance, units::mm_per_min_from_mm_per_s(move.feedrate))));
+  TWIN_CHECK(write_whole_file(program, text));
+  request.program = gcode::ProgramText::from_text(text, program);
   TWIN_TRY(Session session, Session::open(std::move(request)));
   return session.run({.stop = &stop});
 }

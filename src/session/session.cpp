@@ -4,28 +4,26 @@
 
 #include <utility>
 
-#include "config/find_file.hpp"
 #include "core/units.hpp"
 #include "runtime/program_bound.hpp"
 #include "session/results.hpp"
 
 namespace twin::session {
 
-Session::Session(Request request, std::filesystem::path program, std::unique_ptr<hal::Machine> made)
+Session::Session(Request request, std::unique_ptr<hal::Machine> made)
     : request_(std::move(request)),
-      program_(std::move(program)),
       made_(std::move(made)),
       hal_(made_ ? made_.get() : request_.hal) {
-  request_.folder = result_folder(request_.folder, program_.stem());
+  request_.folder = result_folder(request_.folder, program().stem());
 }
 
 Expected<Session> Session::open(Request request) {
-  TWIN_TRY(std::filesystem::path program, config::find_program(request.program));
   std::unique_ptr<hal::Machine> made;
   if (request.hal == nullptr && request.make_machine) {
-    TWIN_TRY(made, request.make_machine(request.machine, "run " + program.filename().string()));
+    TWIN_TRY(made, request.make_machine(request.machine,
+                                        "run " + request.program.file().filename().string()));
   }
-  return Session(std::move(request), std::move(program), std::move(made));
+  return Session(std::move(request), std::move(made));
 }
 
 bool Session::is_on_wall_clock() const noexcept {
@@ -33,7 +31,7 @@ bool Session::is_on_wall_clock() const noexcept {
 }
 
 std::string Session::title() const {
-  const std::string name = program_.filename().string();
+  const std::string name = program().filename().string();
   return request_.feedrate ? fmt::format("{}, {:g} mm/min", name,
                                          units::mm_per_min_from_mm_per_s(*request_.feedrate))
                            : name;
@@ -41,13 +39,12 @@ std::string Session::title() const {
 
 Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   runtime::RunRequest run;
-  TWIN_TRY(text_, gcode::ProgramText::read(program_,
-                                           {.folder = request_.folder, .stop = attendance.stop}));
-  run.program = text_;
+  run.program = request_.program;
   run.machine = request_.machine;
   run.hal = hal_;
   run.feedrate = request_.feedrate;
-  run.directory = request_.folder;
+  run.directory = request_.files == Files::kWritten ? request_.folder : std::filesystem::path();
+  run.sinks = request_.sinks;
   run.is_wall_clock = is_on_wall_clock();
   run.overrides = request_.overrides;
   run.until = request_.until;
@@ -59,7 +56,10 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   TWIN_TRY(runtime::RunResult result, runtime::run_program(run));
   if (request_.has_bound && !result.failure) {
     TWIN_TRY(result.summary.time_bound,
-             runtime::time_bound(text_, request_.machine, request_.feedrate));
+             runtime::time_bound(request_.program, request_.machine, request_.feedrate));
+  }
+  if (request_.files == Files::kNone) {
+    return result;
   }
   TWIN_CHECK(write_summary(request_.folder, result));
   if (!result.failure) {
@@ -69,8 +69,8 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
 }
 
 Expected<void> Session::draw_figures() const {
-  return session::draw_figures(
-      {request_.folder, text_, title(), hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun});
+  return session::draw_figures({request_.folder, request_.program, title(),
+                                hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun});
 }
 
 Expected<void> Session::render_video(const std::string& camera,

@@ -14,9 +14,11 @@
 #include "hal/machine.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
+#include "runtime/program_source.hpp"
 #include "runtime/run.hpp"
 #include "session/machine.hpp"
 #include "session/pictures.hpp"
+#include "twin/trace.hpp"
 
 /// Runs one program on one machine, from the machine file to the pictures. The command line, the
 /// studies and other programs use it. Nothing here prints.
@@ -28,17 +30,25 @@ enum class Pace {
   kWallClock,  ///< the wall clock in any case
 };
 
+/// What a run leaves in its folder.
+enum class Files {
+  kWritten,  ///< trace and summary
+  kNone,     ///< nothing: the rows of the trace go to the sinks alone
+};
+
 /// What is to be run.
 ///
 /// The machine is `hal`. If `hal` is null, make_machine() makes the machine. If that is empty too,
 /// the program is planned and nothing moves.
 struct Request {
-  std::string program;  ///< NC program: a path, or a name in nc_programs
+  gcode::ProgramText program;
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured; outlives the session
   MakeMachine make_machine{};      ///< called by Session::open
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
   std::filesystem::path folder;    ///< folder of the results; empty: renders/NAME of the program
+  Files files = Files::kWritten;
+  std::vector<TraceSink*> sinks{};  ///< get the rows of the trace, besides the files
   Pace pace = Pace::kOwn;
   std::vector<runtime::OverrideChange> overrides{};  ///< feed override at times of the motion
   runtime::Until until{};                            ///< ends the motion early; may be empty
@@ -56,7 +66,7 @@ struct Attendance {
 
 /// A program and its machine, ready to run.
 ///
-///   open()           finds the program and makes the machine
+///   open()           makes the machine
 ///   run()            plans, moves, writes trace.csv and summary.json
 ///   draw_figures()   draws the plots of the trace
 ///   render_video()   renders video.mp4 from the trace
@@ -64,7 +74,8 @@ class Session {
  public:
   static Expected<Session> open(Request request);
 
-  const std::filesystem::path& program() const noexcept { return program_; }
+  /// File of the program, or the name of its text.
+  const std::filesystem::path& program() const noexcept { return request_.program.file(); }
   const config::MachineFile& machine() const noexcept { return request_.machine; }
   const std::filesystem::path& folder() const noexcept { return request_.folder; }
   /// The machine that moves; null for a plan.
@@ -92,11 +103,9 @@ class Session {
                               std::function<void(double)> progress = {}) const;
 
  private:
-  Session(Request request, std::filesystem::path program, std::unique_ptr<hal::Machine> made);
+  Session(Request request, std::unique_ptr<hal::Machine> made);
 
   Request request_;
-  std::filesystem::path program_;
-  gcode::ProgramText text_;  // of the program, as run() has read it
   std::unique_ptr<hal::Machine> made_;
   hal::Machine* hal_;
 };

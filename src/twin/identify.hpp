@@ -16,7 +16,7 @@ struct IdentifyOptions {
   /// Which columns of the traces are which signal, "SIGNAL=COLUMN[:UNIT],..." as --columns has it;
   /// empty: those of trace.csv.
   std::string columns{};
-  std::vector<std::string> fixed{};  ///< keys that keep the value they have
+  std::vector<std::string> fixed{};  ///< keys that keep their value, with their unit or without
   std::vector<std::string> freed{};  ///< keys that are fitted though they would be held
   std::size_t evaluations = 0;       ///< simulations of the global search; 0: as many as usual
   std::uint32_t seed = 1;            ///< of the global search; the same seed gives the same result
@@ -36,7 +36,8 @@ struct Identification {
 ///
 /// @param traces  CSV files with even time, set points and measured positions
 /// @param start   settings that the search begins at, and that what is not identified keeps
-/// @throws Failure if a trace cannot be read or cannot be what it claims to be
+/// @throws Failure if a trace cannot be read or cannot be what it claims to be, or if a key is
+/// nothing that a trace is fitted for; it names the nearest one that is
 TWIN_EXPORT Identification identify(const std::vector<std::string>& traces, const Settings& start,
                                     const IdentifyOptions& options = {});
 

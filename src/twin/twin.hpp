@@ -12,3 +12,4 @@
 #include "twin/settings.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
+#include "twin/video.hpp"

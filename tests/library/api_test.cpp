@@ -176,5 +176,18 @@ TEST(Identify, ATraceThatIsMissingIsNamed) {
   EXPECT_THAT(to_string(error), testing::HasSubstr("none.csv"));
 }
 
+TEST(Identify, AKeyThatNoTraceShowsIsRefusedWithTheNearestOne) {
+  const auto refusal = [](const IdentifyOptions& options) {
+    return failure_of([&] { identify({"none.csv"}, Settings(), options); });
+  };
+  const Error fixed = refusal({.fixed = {"table.x.movin_mass"}});
+  EXPECT_EQ(fixed.code, ErrorCode::kUsage);
+  EXPECT_THAT(fixed.message, testing::StartsWith("table.x.movin_mass is nothing that a trace"));
+  EXPECT_THAT(fixed.message, testing::HasSubstr("did you mean table.x.moving_mass_kg?"));
+  EXPECT_EQ(refusal({.freed = {"limits.jerk"}}).code, ErrorCode::kUsage);
+  const Error known = refusal({.fixed = {"table.x.moving_mass"}, .freed = {"servo.y.kp_per_s"}});
+  EXPECT_EQ(known.file, "none.csv");
+}
+
 }  // namespace api_test
 }  // namespace twin

@@ -85,7 +85,7 @@ Expected<SenseRun> run_sense(const CircleTest& test, Sense sense,
   const fs::path program = test.folder / fmt::format("circle_{}.nc", name);
   TWIN_CHECK(write_whole_file(program, circle_program(test.radius, test.feedrate, sense)));
   session::Request request;
-  request.program = program.string();
+  TWIN_TRY(request.program, gcode::ProgramText::read(program));
   request.machine = test.machine;
   request.hal = hal.get();
   request.folder = test.folder / name;

@@ -126,8 +126,7 @@ Expected<std::vector<std::string>> full_keys(const std::vector<std::string>& nam
     const auto found = std::ranges::find_if(
         known, [&](const std::string& key) { return key == name || key.starts_with(name + "_"); });
     if (found == known.end()) {
-      return fail(ErrorCode::kUsage, "--fix, --free: " + name +
-                                         " is nothing that a trace is fitted for" +
+      return fail(ErrorCode::kUsage, name + " is nothing that a trace is fitted for" +
                                          config::did_you_mean(name, known));
     }
     keys.push_back(*found);

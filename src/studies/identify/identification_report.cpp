@@ -54,19 +54,9 @@ std::string relative_text(const FittedParameter& p) {
 }
 
 /// Where the value of a parameter comes from, in a word of the table.
-const char* origin_of(const FittedParameter& p) {
-  switch (p.verdict) {
-    case Verdict::kIdentified:
-      return "identified";
-    case Verdict::kMeasured:
-      return "measured";
-    case Verdict::kUnidentified:
-    case Verdict::kAtBound:
-      return "start";
-    case Verdict::kFixed:
-      return "fixed";
-  }
-  return "";
+std::string origin_of(const FittedParameter& p) {
+  const bool is_start = p.verdict == Verdict::kUnidentified || p.verdict == Verdict::kAtBound;
+  return is_start ? "start" : std::string(verdict_name(p.verdict));
 }
 
 Line parameter_line(const FittedParameter& p) {

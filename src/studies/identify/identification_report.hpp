@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "studies/identify/identify.hpp"
 
@@ -17,7 +18,7 @@ std::string to_json(const Identification& result, const std::filesystem::path& m
 /// from in its comment.
 std::string to_machine_file(const Identification& result);
 
-/// "identified", "measured", "not identified", "at bound", "fixed"
+/// What a fit says of a parameter: "identified", "measured", "not identified" or "fixed".
 std::string_view verdict_name(Verdict verdict);
 
 }  // namespace twin::studies::identify
