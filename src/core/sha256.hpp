@@ -19,4 +19,7 @@ class Sha256 {
   sha256_ctx context_;
 };
 
+/// SHA-256 of some bytes, as 64 lower-case hexadecimal digits.
+std::string sha256(std::string_view bytes);
+
 }  // namespace twin

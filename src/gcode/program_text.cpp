@@ -226,9 +226,7 @@ ProgramText::ProgramText() : data_(std::make_shared<Data>()) {}
 
 ProgramText ProgramText::from_text(std::string text, fs::path name) {
   auto data = std::make_shared<Data>();
-  Sha256 hash;
-  hash.add(text);
-  data->sha256 = hash.finish();
+  data->sha256 = twin::sha256(text);
   data->size = static_cast<std::int64_t>(text.size());
   data->text = std::move(text);
   data->file = std::move(name);

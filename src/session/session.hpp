@@ -14,7 +14,6 @@
 #include "hal/machine.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
-#include "runtime/program_source.hpp"
 #include "runtime/run.hpp"
 #include "session/machine.hpp"
 #include "session/pictures.hpp"

@@ -6,7 +6,6 @@
 #include "runtime/cycle.hpp"
 #include "studies/identify/axis_model.hpp"
 #include "studies/identify/table_run.hpp"
-#include "tests/support/program_text.hpp"
 
 /// Cost of a simulated physics step: one axis without MuJoCo, beside the whole table with it.
 namespace twin::studies::identify {
@@ -20,7 +19,8 @@ config::MachineFile machine_file() {
 }
 
 std::vector<motion::SetPoint> set_points(const config::MachineFile& machine) {
-  return plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc"), machine)
+  const auto program = gcode::ProgramText::read(TWIN_SOURCE_DIR "/nc_programs/oxalis.nc");
+  return plan_set_points(program.value_or(gcode::ProgramText()), machine)
       .value_or(std::vector<motion::SetPoint>());
 }
 

@@ -87,7 +87,10 @@ void read_to_bound(benchmark::State& state) {
   const config::MachineFile machine;
   bench::reset_peak_memory();
   for (auto _ : state) {
-    auto bound = time_bound(file.path(), machine, {});
+    auto bound =
+        gcode::ProgramText::read(file.path()).and_then([&](const gcode::ProgramText& text) {
+          return time_bound(text, machine, {});
+        });
     benchmark::DoNotOptimize(bound);
   }
   report(state, bench::peak_memory());

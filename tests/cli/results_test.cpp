@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/sha256.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/program_text.hpp"
 #include "tests/support/trace_rows.hpp"
 
 // trace.csv and summary.json are read by other programs: names, order and units are an interface.
@@ -182,7 +182,7 @@ TEST_F(Results, SummarySaysWhatItWasMadeFrom) {
   EXPECT_EQ(plan["planner"], "paper");
   EXPECT_EQ(plan["settings"]["limits"]["jerk_mm_per_s3"], 4e4);
   EXPECT_EQ(plan["settings"]["planning"]["planner"], "paper");
-  EXPECT_EQ(plan["program_sha256"], sha256_of_file(folder / "ok.nc"));
+  EXPECT_EQ(plan["program_sha256"], test::text_of(folder / "ok.nc").sha256());
   EXPECT_NE(plan["command"].get<std::string>().find(" plan "), std::string::npos);
   EXPECT_NE(plan["command"].get<std::string>().find(" --set limits.jerk=4e4"), std::string::npos);
   EXPECT_FALSE(plan["version"].get<std::string>().empty());

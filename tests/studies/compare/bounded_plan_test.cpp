@@ -15,7 +15,8 @@ namespace bounded_plan_test {
 class BoundedPlanTest : public ::testing::Test {
  protected:
   BoundedPlan plan(const std::string& text) {
-    auto result = bounded_plan(folder.put("program.nc", text), machine, {}, Profiles::kRecorded);
+    auto result = bounded_plan(gcode::ProgramText::from_text(text, "program.nc"), machine, {},
+                               Profiles::kRecorded);
     EXPECT_TRUE(result);
     return std::move(*result);
   }
