@@ -56,6 +56,7 @@ void LookAhead::emit_final(Tail tail) {
   double begin = 0.0;
   std::size_t next_phase = 0;
   std::size_t next_zone = 0;
+  std::size_t next_stretch = 0;
   while (!window_.segments.empty() &&
          (tail == Tail::kClosed ||
           begin + window_.segments.front().length <= window_.start.s - kPlaceRounding)) {
@@ -64,13 +65,13 @@ void LookAhead::emit_final(Tail tail) {
     planned.index = next_index_++;
     window_.segments.pop_front();
     const double end = begin + planned.segment.length;
-    planned.brake = limits_.brake_limits(window_, next_zone, begin, end);
     append_phases(begin, end, next_phase, planned);
     append_limits(begin, end, next_zone, planned);
+    append_stretches(begin, end, next_stretch, planned);
     begin = end;
     sink_(std::move(planned));
   }
-  forget(begin, next_phase, next_zone);
+  forget(begin, next_phase, next_zone, next_stretch);
 }
 
 /// Moves the phases within [begin, end] to a segment, and cuts the one that goes on after it.
@@ -114,14 +115,38 @@ void LookAhead::append_limits(double begin, double end, std::size_t& next,
   }
 }
 
+/// Copies the stretches that reach into [begin, end] to a segment.
+/// @param next  the first stretch that ends beyond `begin`; becomes that of `end`
+void LookAhead::append_stretches(double begin, double end, std::size_t& next,
+                                 PlannedSegment& planned) const {
+  const std::vector<Stretch>& stretches = window_.stretches;
+  for (std::size_t i = next; limits_.has_zone_ramps() && i < stretches.size(); ++i) {
+    Stretch stretch = stretches[i];
+    next = stretch.end <= end + kPlaceRounding ? i + 1 : i;
+    stretch.end -= begin;
+    stretch.rest -= begin;
+    planned.stretches.push_back(stretch);
+    if (next == i) {
+      break;
+    }
+  }
+}
+
 /// Drops what was handed on and measures everything from the new window's start.
-void LookAhead::forget(double distance, std::size_t phases, std::size_t zones) {
+void LookAhead::forget(double distance, std::size_t phases, std::size_t zones,
+                       std::size_t stretches) {
   window_.phases.erase(window_.phases.begin(),
                        window_.phases.begin() + static_cast<std::ptrdiff_t>(phases));
   window_.zones.erase(window_.zones.begin(),
                       window_.zones.begin() + static_cast<std::ptrdiff_t>(zones));
+  window_.stretches.erase(window_.stretches.begin(),
+                          window_.stretches.begin() + static_cast<std::ptrdiff_t>(stretches));
   for (Phase& phase : window_.phases) {
     phase.s -= distance;
+  }
+  for (Stretch& stretch : window_.stretches) {
+    stretch.end -= distance;
+    stretch.rest -= distance;
   }
   for (LimitZone& zone : window_.zones) {
     zone.begin -= distance;

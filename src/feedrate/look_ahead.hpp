@@ -60,8 +60,9 @@ class LookAhead {
   void plan(Tail tail);
   void emit_final(Tail tail);
   void append_phases(double begin, double end, std::size_t& next, PlannedSegment& planned);
+  void append_stretches(double begin, double end, std::size_t& next, PlannedSegment& planned) const;
   void append_limits(double begin, double end, std::size_t& next, PlannedSegment& planned) const;
-  void forget(double distance, std::size_t phases, std::size_t zones);
+  void forget(double distance, std::size_t phases, std::size_t zones, std::size_t stretches);
 
   WindowLimits limits_;
   std::unique_ptr<WindowPlanner> planner_;

@@ -10,6 +10,7 @@
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/profile/phases.hpp"
 #include "feedrate/profile/ramps.hpp"
+#include "feedrate/profile/stop.hpp"
 #include "path/builder.hpp"
 #include "path/segment.hpp"
 
@@ -25,11 +26,12 @@ enum class Tail : std::uint8_t {
 /// are measured from the start of the first segment.
 struct Window {
   std::deque<path::Segment> segments;
-  double length = 0.0;           ///< length of all segments together [mm]
-  double fastest = 0.0;          ///< highest feedrate that any segment so far asked for [mm/s]
-  std::vector<LimitZone> zones;  ///< limits of the whole window, in path order
-  Anchor start;                  ///< the feedrate is final up to this place; plans start here
-  std::vector<Phase> phases;     ///< final motion of segments that are still in the window
+  double length = 0.0;             ///< length of all segments together [mm]
+  double fastest = 0.0;            ///< highest feedrate that any segment so far asked for [mm/s]
+  std::vector<LimitZone> zones;    ///< limits of the whole window, in path order
+  Anchor start;                    ///< the feedrate is final up to this place; plans start here
+  std::vector<Phase> phases;       ///< final motion of segments that are still in the window
+  std::vector<Stretch> stretches;  ///< of the final motion, in path order; for stops
 };
 
 /// Where the feedrate limits inside a segment come from.

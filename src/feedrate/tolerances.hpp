@@ -18,6 +18,12 @@ inline constexpr double kPlaceRounding = 1e-9;
 /// It is of the size of kPlaceRounding, since distances are differences of places.
 inline constexpr double kDistanceRounding = 1e-9;
 
+/// A stop that would end this far beyond a place of rest ends there [mm].
+///
+/// A motion that follows phases of the plan ends where their sums do, some 1e-10 mm from the place
+/// that was planned for; a thousandth of a micrometre is more than that and still nothing.
+inline constexpr double kRestRounding = 1e-6;
+
 /// How closely an ascent touches the corner of a limit [mm].
 ///
 /// It is a tenth of kPlaceRounding, so that an ascent that touches is not seen as one that passes

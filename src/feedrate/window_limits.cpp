@@ -11,7 +11,6 @@ WindowLimits::WindowLimits(const Limits& limits, const PlanningModel& model, dou
                            std::unique_ptr<LimitSource> source, const PlanStart& start,
                            double override_scale)
     : limits_(limits),
-      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       source_(std::move(source)),
       junctions_(limits, model, period),
       start_(start),
@@ -66,28 +65,6 @@ void WindowLimits::append_descent(const path::Segment& segment, double asked, do
       zones.push_back(zone);
     }
   }
-}
-
-RampLimits WindowLimits::brake_limits(const Window& window, std::size_t zone, double begin,
-                                      double end) const {
-  RampLimits least = ramp_;
-  if (!source_->has_zone_ramps()) {
-    return least;
-  }
-  double fastest = 0.0;
-  for (; zone < window.zones.size(); ++zone) {
-    const LimitZone& next = window.zones[zone];
-    if (next.begin < end) {
-      fastest = std::max(fastest, next.limit);
-    } else if (next.begin > end + ramp_distance(fastest, 0.0, least)) {
-      break;
-    }
-    if (next.end > begin) {
-      least.acceleration = std::min(least.acceleration, next.acceleration);
-      least.jerk = std::min(least.jerk, next.jerk);
-    }
-  }
-  return least;
 }
 
 void WindowLimits::forget(double distance, std::size_t zones) {

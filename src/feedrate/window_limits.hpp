@@ -30,11 +30,8 @@ class WindowLimits {
   /// Appends the limits of a segment that begins at the window's end.
   void append(const path::Segment& segment, Window& window);
 
-  /// Acceleration and jerk with which the motion may brake from a part of the path on until it
-  /// rests.
-  ///
-  /// @param zone  the first zone of [begin, end] [mm]
-  RampLimits brake_limits(const Window& window, std::size_t zone, double begin, double end) const;
+  /// Whether a place may allow less acceleration or jerk than the machine.
+  bool has_zone_ramps() const { return source_->has_zone_ramps(); }
 
   /// The first zones are gone, and places are measured from a new start.
   /// @param distance  of the new start from the old [mm]
@@ -45,7 +42,6 @@ class WindowLimits {
   void append_descent(const path::Segment& segment, double asked, double down, Window& window);
 
   Limits limits_;
-  RampLimits ramp_;
   std::unique_ptr<LimitSource> source_;
   JunctionLimits junctions_;
   PlanStart start_;

@@ -155,7 +155,7 @@ Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_ahead(
         return std::nullopt;
       }
       Start start = start_at(segment, place->is_at_end ? 0.0 : place->s, place->v, request.percent);
-      start.at = {start.plan.number, place->segment, place->phase, place->time};
+      start.at = {start.plan.number, place->segment, place->phase, place->time, start.distance};
       start.after = place->after;
       return start;
     }

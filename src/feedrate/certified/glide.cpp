@@ -61,6 +61,7 @@ bool Glide::plan(std::span<const LimitZone> zones, const Anchor& start, const An
   }
   phases_.clear();
   parts_.clear();
+  legs_.clear();
   pending_.clear();
   free_.clear();
   for (Ascent& ascent : ascents_) {
@@ -111,6 +112,7 @@ bool Glide::plan_leg(Leg leg) {
   const double length = leg.b.s - leg.a.s;
   if (leg.up == nullptr) {
     phases_.push_back({length / leg.a.v, leg.a.s, leg.a.v, 0.0, 0.0});
+    legs_.push_back({leg.b.s, leg.b.v, ramp_of(leg.first, leg.last)});
     return true;
   }
   if (length <= kPlaceRounding) {
@@ -124,6 +126,7 @@ bool Glide::plan_leg(Leg leg) {
       if (climb_.is_joined) {
         parts_.push_back({phases_.size(), phases_.size() + climb_.descent});
         phases_.insert(phases_.end(), climb_.phases.begin(), climb_.phases.end());
+        legs_.push_back({leg.b.s, leg.b.v, leg.ramp});
         release(leg);
       }
       return climb_.is_joined;

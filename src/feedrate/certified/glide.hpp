@@ -44,6 +44,13 @@ class Glide {
     std::size_t descent;  ///< index of the first phase of its descent
   };
 
+  /// One leg of the result.
+  struct LegEnd {
+    double s;         ///< place of its end [mm]
+    double v;         ///< feedrate there [mm/s]
+    RampLimits ramp;  ///< the phases of the leg are within
+  };
+
   /// Plans from start to end over zones that cover [start.s, end.s] in ascending order.
   ///
   /// @param ramp  limits of the machine; zones may allow less acceleration and jerk
@@ -54,6 +61,8 @@ class Glide {
   /// The planned motion in path order, and the summits that it consists of.
   const std::vector<Phase>& phases() const noexcept { return phases_; }
   const std::vector<Part>& parts() const noexcept { return parts_; }
+  /// The legs in path order.
+  const std::vector<LegEnd>& legs() const noexcept { return legs_; }
 
  private:
   struct Leg {
@@ -103,6 +112,7 @@ class Glide {
   Climb climb_;
   std::vector<Phase> phases_;
   std::vector<Part> parts_;
+  std::vector<LegEnd> legs_;
 };
 
 }  // namespace twin::feedrate

@@ -68,6 +68,9 @@ void GlidePlanner::forget(double distance) {
   for (Phase& phase : plan_) {
     phase.s -= distance;
   }
+  for (Glide::LegEnd& leg : legs_) {
+    leg.s -= distance;
+  }
 }
 
 bool GlidePlanner::plan_until(const Window& window, double horizon) {
@@ -82,6 +85,7 @@ bool GlidePlanner::plan_until(const Window& window, double horizon) {
     return false;
   }
   plan_ = glide_.phases();
+  legs_ = glide_.legs();
   return true;
 }
 
@@ -178,6 +182,55 @@ void GlidePlanner::commit(Window& window, const Cut& cut) {
     window.start = {motion_at(plan_.back(), plan_.back().duration).s, 0.0};
   }
   plan_.erase(plan_.begin(), done);
+  commit_stretches(window);
+}
+
+/// Hands on the legs up to the window's start, for stops.
+void GlidePlanner::commit_stretches(Window& window) {
+  const Anchor& start = window.start;
+  std::size_t done = 0;
+  for (; done < legs_.size() && legs_[done].s <= start.s + kPlaceRounding; ++done) {
+    const Glide::LegEnd& leg = legs_[done];
+    window.stretches.push_back({.end = leg.s,
+                                .ramp = leg.ramp,
+                                .is_harder_after = is_harder_after(done, start.s),
+                                .rest = rest_after(done + 1, {leg.s, leg.v, 0.0})});
+  }
+  legs_.erase(legs_.begin(), legs_.begin() + static_cast<std::ptrdiff_t>(done));
+  const double last = window.stretches.empty() ? 0.0 : window.stretches.back().end;
+  if (!legs_.empty() && start.s > last + kPlaceRounding) {
+    window.stretches.push_back({.end = start.s,
+                                .ramp = legs_.front().ramp,
+                                .is_harder_after = false,
+                                .rest = rest_after(0, {start.s, start.v, 0.0})});
+  }
+}
+
+/// Whether a stop may take the deceleration of a leg on to the next one: that one allows it, and is
+/// long enough for it to be lost up to its end, or up to where it is final.
+bool GlidePlanner::is_harder_after(std::size_t leg, double last) const {
+  if (leg + 1 >= legs_.size()) {
+    return false;
+  }
+  const Glide::LegEnd& here = legs_[leg];
+  const Glide::LegEnd& next = legs_[leg + 1];
+  return next.ramp.acceleration >= here.ramp.acceleration && next.ramp.jerk >= here.ramp.jerk &&
+         std::min(next.s, last) - here.s >= here.v * here.ramp.acceleration / next.ramp.jerk;
+}
+
+/// Where a stop rests that begins on a leg without acceleration [mm].
+double GlidePlanner::rest_after(std::size_t leg, PathMotion from) const {
+  for (; leg < legs_.size(); ++leg) {
+    const StopPart part =
+        make_stop_part(from, {.end = legs_[leg].s,
+                              .ramp = legs_[leg].ramp,
+                              .is_harder_after = is_harder_after(leg, legs_.back().s)});
+    from = end_of(part.brake);
+    if (part.rests) {
+      break;
+    }
+  }
+  return from.s;
 }
 
 }  // namespace twin::feedrate

@@ -51,6 +51,9 @@ class GlidePlanner final : public WindowPlanner {
   Cut last_final(const Window& window, double horizon);
   Cut next_level() const;
   void commit(Window& window, const Cut& cut);
+  void commit_stretches(Window& window);
+  bool is_harder_after(std::size_t leg, double last) const;
+  double rest_after(std::size_t leg, PathMotion from) const;
 
   RampLimits ramp_;
   std::size_t look_ahead_;
@@ -59,7 +62,8 @@ class GlidePlanner final : public WindowPlanner {
   double fastest_ = 0.0;  // limit of all of them [mm/s]
   Glide glide_;
   Ascent probe_;
-  std::vector<Phase> plan_;  // last plan from the start to rest
+  std::vector<Phase> plan_;          // last plan from the start to rest
+  std::vector<Glide::LegEnd> legs_;  // of plan_
 };
 
 }  // namespace twin::feedrate

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <variant>
 
+#include "feedrate/tolerances.hpp"
+
 namespace twin::motion {
 namespace {
 
-constexpr double kRestRounding = 1e-6;  // place where braking ends [mm]
+/// Zones that a stop nearby may pass. It bounds the work of one period; twice as many would let few
+/// more stops be short.
+constexpr int kZonesNearby = 16;
 
 }  // namespace
 
@@ -132,20 +136,47 @@ Status PhaseClock::follow(double dt) noexcept {
 }
 
 Status PhaseClock::follow_brake(double dt) noexcept {
-  time_ = std::min(time_ + pending_ + dt, brake_.duration);
-  pending_ = 0.0;
+  for (;;) {
+    const double time = time_ + pending_ + dt;
+    time_ = std::min(time, brake_.duration);
+    pending_ = 0.0;
+    if (!cross_segments()) {
+      return end_or_starve(State::kEndedByBraking);  // rest lies beyond the end by rounding
+    }
+    if (time_ < brake_.duration) {
+      return Status::kMoving;
+    }
+    if (rests_) {
+      stand_ = {std::clamp(motion().s, 0.0, current_->segment.length), 0.0, 0.0};
+      is_on_curve_end_ = false;
+      state_ = State::kAtRest;
+      return Status::kMoving;
+    }
+    if (!go_on_braking()) {
+      return end_or_starve(State::kEndedByBraking);
+    }
+    pending_ = time - time_;
+    time_ = 0.0;
+    dt = 0.0;
+  }
+}
+
+/// Fetches segments until the motion, which brakes, is on the current one. @returns false if there
+/// is none
+bool PhaseClock::cross_segments() noexcept {
   // Where the plan rests at the segment's end, so does braking, but for rounding.
-  const auto rests_here = [this] {
-    return brake_.phases.front().s + brake_.distance <= current_->segment.length + kRestRounding;
+  const auto ends_here_too = [this] {
+    return brake_.phases.front().s + brake_.distance <=
+           current_->segment.length + feedrate::kRestRounding;
   };
-  for (double s = motion().s; s > current_->segment.length && !rests_here(); s = motion().s) {
+  for (double s = motion().s; s > current_->segment.length && !ends_here_too(); s = motion().s) {
     const std::int64_t index = current_->index;
     const double length = current_->segment.length;
     if (ends_here()) {
       take_over();
     }
     if (!fetch()) {
-      return end_or_starve(State::kEndedByBraking);  // rest lies beyond the end by rounding
+      return false;
     }
     if (current_->index == index) {
       continue;
@@ -154,12 +185,28 @@ Status PhaseClock::follow_brake(double dt) noexcept {
       phase.s -= length;
     }
   }
-  if (time_ >= brake_.duration) {
-    stand_ = {std::clamp(motion().s, 0.0, current_->segment.length), 0.0, 0.0};
-    is_on_curve_end_ = false;
-    state_ = State::kAtRest;
+  return true;
+}
+
+/// Begins the part of the stop on the next stretch. @returns false if its segment is not there
+bool PhaseClock::go_on_braking() noexcept {
+  feedrate::PathMotion from = feedrate::end_of(brake_);
+  const bool is_switch =
+      ends_here() && armed_->distance - passed_ <= from.s + feedrate::kRestRounding;
+  if (is_switch) {
+    take_over();
   }
-  return Status::kMoving;
+  while (is_switch ? current_->plan != plan_
+                   : from.s >= current_->segment.length - feedrate::kPlaceRounding) {
+    const std::int64_t index = current_->index;
+    const double length = current_->segment.length;
+    if (!fetch()) {
+      return false;
+    }
+    from.s = current_->index == index ? from.s : std::max(from.s - length, 0.0);
+  }
+  begin_stop_part(from);
+  return true;
 }
 
 void PhaseClock::brake(const feedrate::RampLimits& limits) noexcept {
@@ -169,18 +216,90 @@ void PhaseClock::brake(const feedrate::RampLimits& limits) noexcept {
   if (state_ != State::kFollowing && state_ != State::kBetweenPlans) {
     return;
   }
-  brake_ = brake_from_here(limits);
+  brake_limits_ = limits;
+  begin_stop_part(motion());
   time_ = 0.0;
   state_ = State::kBraking;
 }
 
-feedrate::Brake PhaseClock::brake_from_here(feedrate::RampLimits limits) const noexcept {
-  const feedrate::RampLimits& planned = current_->brake;
-  if (planned.acceleration > 0.0) {
-    limits.acceleration = std::min(limits.acceleration, planned.acceleration);
-    limits.jerk = std::min(limits.jerk, planned.jerk);
+void PhaseClock::begin_stop_part(const feedrate::PathMotion& from) noexcept {
+  const feedrate::StopPart part = stop_part(from, brake_limits_);
+  brake_ = part.brake;
+  rests_ = part.rests;
+}
+
+/// The stop from a place of the current segment, as far as one stretch goes.
+feedrate::StopPart PhaseClock::stop_part(const feedrate::PathMotion& from,
+                                         const feedrate::RampLimits& limits) const noexcept {
+  const feedrate::Stretch stretch = stretch_at(from.s, limits);
+  if (const auto brake = stop_nearby(from, stretch, limits)) {
+    return {*brake, true};
   }
-  return feedrate::make_brake(motion(), limits);
+  return feedrate::make_stop_part(from, stretch);
+}
+
+/// A stop that rests within the next zones of the segment and the stretch. These may allow more
+/// acceleration and jerk than the plan uses on the whole stretch. So such a stop is shorter, and
+/// all the more it is nowhere faster than the plan.
+std::optional<feedrate::Brake> PhaseClock::stop_nearby(
+    const feedrate::PathMotion& from, const feedrate::Stretch& stretch,
+    const feedrate::RampLimits& limits) const noexcept {
+  if (current_->stretches.empty()) {
+    return std::nullopt;
+  }
+  const auto& zones = current_->limits;
+  auto zone = std::ranges::partition_point(zones, [&](const feedrate::LimitZone& candidate) {
+    return candidate.end <= from.s + feedrate::kPlaceRounding;
+  });
+  const double last = std::min(stretch.end, current_->segment.length);
+  feedrate::RampLimits ramp = limits;
+  for (int i = 0; i < kZonesNearby && zone != zones.end(); ++i, ++zone) {
+    ramp.acceleration = std::min(ramp.acceleration, zone->acceleration);
+    ramp.jerk = std::min(ramp.jerk, zone->jerk);
+    if (i > 0 && from.a < 0.0 && from.a * from.a > 2.0 * ramp.jerk * from.v) {
+      break;  // with so little jerk the deceleration at hand would be lost too late
+    }
+    const feedrate::Brake brake = feedrate::make_brake(from, ramp);
+    if (from.s + brake.distance <= std::min(zone->end, last) + feedrate::kRestRounding) {
+      return brake;
+    }
+    if (zone->end >= last) {
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The stretch of a place of the current segment. It ends at the latest where another plan is to
+/// take over, which has stretches of its own.
+feedrate::Stretch PhaseClock::stretch_at(double s,
+                                         const feedrate::RampLimits& limits) const noexcept {
+  const std::vector<feedrate::Stretch>& stretches = current_->stretches;
+  if (stretches.empty()) {
+    return {.ramp = limits};
+  }
+  const auto found = std::ranges::find_if(stretches, [s](const feedrate::Stretch& stretch) {
+    return stretch.end > s + feedrate::kPlaceRounding;
+  });
+  // Beyond the last one, which is rounding, its ramp goes on.
+  feedrate::Stretch stretch =
+      found != stretches.end() ? *found : feedrate::Stretch{.ramp = stretches.back().ramp};
+  stretch.ramp.acceleration = std::min(stretch.ramp.acceleration, limits.acceleration);
+  stretch.ramp.jerk = std::min(stretch.ramp.jerk, limits.jerk);
+  if (armed_ && armed_->distance - passed_ < stretch.end) {
+    stretch.end = armed_->distance - passed_;
+    stretch.is_harder_after = false;
+  }
+  return stretch;
+}
+
+double PhaseClock::braking_distance(const feedrate::RampLimits& limits) const noexcept {
+  if (current_ == nullptr) {
+    return 0.0;
+  }
+  const feedrate::PathMotion from = motion();
+  const feedrate::StopPart part = stop_part(from, limits);
+  return part.rests ? part.brake.distance : stretch_at(from.s, limits).rest - from.s;
 }
 
 bool PhaseClock::arm(const PlanSwitch& at) noexcept {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "feedrate/planned_segment.hpp"
@@ -52,6 +53,7 @@ struct PlanSwitch {
   std::int64_t segment = 0;  ///< index of the segment in which the present plan is left
   std::size_t phase = 0;     ///< index of the last phase of this segment that is followed
   double time = 0.0;         ///< time since the begin of this phase at which it is left [s]
+  double distance = std::numeric_limits<double>::infinity();  ///< from the start of the path [mm]
 };
 
 /// The motion at one instant, as far as the plan knows it.
@@ -110,9 +112,7 @@ class PhaseClock {
   std::int64_t latest_plan() const noexcept { return armed_ ? armed_->plan : plan_; }
   PlanPlace place() const noexcept { return {current_->index, phase_, time_, motion().s}; }
   double distance() const noexcept { return current_ == nullptr ? 0.0 : passed_ + motion().s; }
-  double braking_distance(const feedrate::RampLimits& limits) const noexcept {
-    return current_ == nullptr ? 0.0 : brake_from_here(limits).distance;
-  }
+  double braking_distance(const feedrate::RampLimits& limits) const noexcept;
 
  private:
   enum class State : std::uint8_t {
@@ -135,7 +135,15 @@ class PhaseClock {
   Status end_or_starve(State end) noexcept;
   feedrate::PathMotion motion() const noexcept;
   feedrate::PathMotion motion_after_phases() const noexcept;
-  feedrate::Brake brake_from_here(feedrate::RampLimits limits) const noexcept;
+  feedrate::Stretch stretch_at(double s, const feedrate::RampLimits& limits) const noexcept;
+  std::optional<feedrate::Brake> stop_nearby(const feedrate::PathMotion& from,
+                                             const feedrate::Stretch& stretch,
+                                             const feedrate::RampLimits& limits) const noexcept;
+  feedrate::StopPart stop_part(const feedrate::PathMotion& from,
+                               const feedrate::RampLimits& limits) const noexcept;
+  void begin_stop_part(const feedrate::PathMotion& from) noexcept;
+  bool cross_segments() noexcept;
+  bool go_on_braking() noexcept;
 
   SegmentSource& source_;
   CurveEnd curve_end_;
@@ -150,7 +158,9 @@ class PhaseClock {
   double passed_ = 0.0;           // length of the segments before the current one [mm]
   std::int64_t plan_ = 0;
   std::optional<PlanSwitch> armed_;
-  feedrate::Brake brake_{};       // s from the start of the current segment
+  feedrate::RampLimits brake_limits_{};  // of the machine
+  feedrate::Brake brake_{};       // part of the stop; s from the start of the current segment
+  bool rests_ = false;            // it ends at rest
   bool is_on_curve_end_ = false;  // the last instant is the end of the current curve
 };
 
