@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,9 +23,23 @@ inline std::string read_file(const std::string& name) {
   return text.str();
 }
 
+/// Text without what is in round brackets.
+inline std::string without_comments(const std::string& text) {
+  std::string out;
+  bool is_comment = false;
+  for (const char c : text) {
+    is_comment = is_comment || c == '(';
+    if (!is_comment) {
+      out.push_back(c);
+    }
+    is_comment = is_comment && c != ')';
+  }
+  return out;
+}
+
 /// Lines of the program without comments and without empty lines.
 inline std::vector<std::string> code_lines(const std::string& name) {
-  std::istringstream in(std::regex_replace(read_file(name), std::regex(R"(\([^)]*\))"), ""));
+  std::istringstream in(without_comments(read_file(name)));
   std::vector<std::string> out;
   for (std::string line; std::getline(in, line);) {
     if (!line.empty()) {

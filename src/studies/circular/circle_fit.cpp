@@ -1,10 +1,11 @@
 #include "studies/circular/circle_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "core/linear_algebra.hpp"
 
 namespace twin::studies::circular {
 namespace {
@@ -86,7 +87,7 @@ Circle least_squares_circle(std::span<const Vec2> points) {
         right += slope * (length - circle.radius);
       }
     }
-    const Eigen::Vector3d step = normal.ldlt().solve(right);
+    const Eigen::Vector3d step = solve_symmetric(normal, right);
     circle.centre += step.head<2>();
     circle.radius += step[2];
     if (step.norm() < kSmallStep) {

@@ -1,11 +1,11 @@
 #include "studies/circular/reversal_spikes.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/linear_algebra.hpp"
 #include "core/units.hpp"
 #include "studies/circular/polar_path.hpp"
 
@@ -48,7 +48,7 @@ Coefficients fit_baseline(const std::vector<PolarPoint>& points, Sense sense, do
       right += row * point.radius;
     }
   }
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 /// Width of the stretch about the tip that is higher than half of it [rad].

@@ -1,11 +1,11 @@
 #include "studies/convert/uniform_refit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "core/linear_algebra.hpp"
 #include "geometry/nurbs/basis.hpp"
 
 namespace twin::studies::convert {
@@ -59,11 +59,12 @@ std::optional<geometry::Curve> fit(const geometry::Curve& curve, int spans, doub
     wanted.row(k) = curve.position(u).transpose();
   }
   if (const Eigen::Index free = n - 6; free > 0) {
-    const auto part = basis.middleCols(3, free);
-    const Eigen::MatrixX3d rest = wanted - basis * points;
-    points.middleRows(3, free) = (part.transpose() * part).ldlt().solve(part.transpose() * rest);
+    const Eigen::MatrixXd part = basis.middleCols(3, free);
+    const Eigen::MatrixXd rest = wanted - basis.lazyProduct(points);
+    points.middleRows(3, free) =
+        solve_symmetric(transposed_product(part, part), transposed_product(part, rest));
   }
-  distance = (wanted - basis * points).rowwise().norm().maxCoeff();
+  distance = (wanted - basis.lazyProduct(points)).rowwise().norm().maxCoeff();
   std::vector<Vec3> control;
   for (Eigen::Index i = 0; i < n; ++i) {
     control.emplace_back(points.row(i).transpose());

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/linear_algebra.hpp"
+
 namespace twin::studies::identify {
 namespace {
 
@@ -79,14 +81,17 @@ bool is_at_bound(const Candidate& candidate, double unit) {
 void add_doubt_of_held(const std::vector<JudgedCandidate>& candidates, const MatrixXd& j,
                        const std::vector<Index>& kept, Judgement& judgement) {
   const MatrixXd kept_columns = columns_of(j, kept);
-  const MatrixXd shift = normal_inverse(kept_columns) * kept_columns.transpose();
+  const MatrixXd inverse = normal_inverse(kept_columns);
   for (std::size_t h = 0; h < candidates.size(); ++h) {
     if (judgement[h].verdict == Verdict::kIdentified || candidates[h].candidate->is_analysed_only) {
       continue;
     }
     const double doubt =
         kHeldDoubt / relative_per_unit(*candidates[h].candidate, candidates[h].value);
-    const VectorXd shifts = shift * j.col(static_cast<Index>(h)) * doubt;
+    const VectorXd shifts =
+        transposed_product(inverse,
+                           transposed_product(kept_columns, j.col(static_cast<Index>(h)))) *
+        doubt;
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const auto place = static_cast<std::size_t>(kept[i]);
       const double move = shifts[static_cast<Index>(i)];

@@ -1,10 +1,10 @@
 #include "studies/identify/least_squares.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.hpp"
 #include "studies/identify/parallel_for.hpp"
 
 namespace twin::studies::identify {
@@ -42,14 +42,14 @@ bool is_stopped(const LeastSquaresOptions& options) {
 double improve(const Residuals& residuals, LeastSquaresFit& fit, double& damping,
                const LeastSquaresOptions& options) {
   const MatrixXd j = jacobian(residuals, fit.x, fit.residual, options.difference);
-  VectorXd gradient = j.transpose() * fit.residual;
-  MatrixXd normal = j.transpose() * j;
+  VectorXd gradient = transposed_product(j, fit.residual);
+  MatrixXd normal = transposed_product(j, j);
   hold_at_bounds(fit.x, gradient, normal);
   for (; damping < kMostDamping && !is_stopped(options); damping *= 4.0) {
     MatrixXd damped = normal;
     damped.diagonal() += damping * normal.diagonal();
     damped.diagonal().array() += 1e-12 * normal.diagonal().maxCoeff();
-    VectorXd step = -damped.ldlt().solve(gradient);
+    VectorXd step = -solve_symmetric(damped, gradient);
     if (!step.allFinite()) {
       continue;
     }
@@ -118,11 +118,11 @@ MatrixXd block_covariance(const MatrixXd& jacobian, const VectorXd& residual, In
   for (Index begin = 0; begin < jacobian.rows(); begin += block) {
     const Index rows = std::min(block, jacobian.rows() - begin);
     const VectorXd score =
-        jacobian.middleRows(begin, rows).transpose() * residual.segment(begin, rows);
-    scores += score * score.transpose();
+        transposed_product(jacobian.middleRows(begin, rows), residual.segment(begin, rows));
+    scores += score.lazyProduct(score.transpose());
   }
   const MatrixXd inverse = normal_inverse(jacobian);
-  MatrixXd covariance = inverse * scores * inverse;
+  MatrixXd covariance = transposed_product(inverse, transposed_product(scores, inverse));
   const double variance =
       residual.squaredNorm() / static_cast<double>(std::max<Index>(residual.size() - n, 1));
   for (Index i = 0; i < n; ++i) {
@@ -135,11 +135,11 @@ MatrixXd normal_inverse(const MatrixXd& jacobian) {
   const VectorXd norm = jacobian.colwise().norm();
   const VectorXd size = norm.cwiseMax(kUnseen * norm.maxCoeff() + kTiny);
   const MatrixXd scaled = jacobian * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled.transpose() * scaled);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(transposed_product(scaled, scaled));
   const VectorXd values =
       eigen.eigenvalues().cwiseMax(kUnseen * eigen.eigenvalues().maxCoeff()).cwiseInverse();
-  return size.cwiseInverse().asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
-         eigen.eigenvectors().transpose() * size.cwiseInverse().asDiagonal();
+  const MatrixXd right = eigen.eigenvectors().transpose() * size.cwiseInverse().asDiagonal();
+  return transposed_product(right, values.asDiagonal() * right);
 }
 
 }  // namespace twin::studies::identify

@@ -1,12 +1,12 @@
 #include "studies/identify/measured_parameters.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "core/linear_algebra.hpp"
 #include "motion/servo/axis_servo.hpp"
 #include "studies/identify/judge.hpp"
 
@@ -145,7 +145,7 @@ GainFit fit_gains(std::span<const AxisRecord> records, double mm_per_s_per_volt,
     }
   }
   normal.diagonal() *= 1.0 + kRidge;
-  const Row gains = normal.ldlt().solve(right);
+  const Row gains = solve_symmetric(normal, right);
   const double left = std::max(square - right.dot(gains), 0.0) / std::max(rows - kUnknowns, 1.0);
   const Row sigma = (normal.inverse().diagonal() * left).cwiseSqrt();
   return {{gains[0], gains[1], gains[2], gains[3], gains[4]},

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "geometry/nurbs/curve.hpp"
 
 /// The definitions themselves, evaluated as they stand: slow, and sharing nothing with the code
@@ -29,6 +31,31 @@ inline Vec3 naive_position(const geometry::Curve& c, double u) {
     w += share;
   }
   return sum / w;
+}
+
+/// The solution x of a x = b by elimination with the largest pivot of each column.
+inline Eigen::MatrixXd solve_with_pivots(Eigen::MatrixXd a, Eigen::MatrixXd b) {
+  const Eigen::Index n = a.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index r = k + 1; r < n; ++r) {
+      pivot = std::abs(a(r, k)) > std::abs(a(pivot, k)) ? r : pivot;
+    }
+    a.row(k).swap(a.row(pivot));
+    b.row(k).swap(b.row(pivot));
+    for (Eigen::Index r = k + 1; r < n; ++r) {
+      const double share = a(r, k) / a(k, k);
+      a.row(r) -= share * a.row(k);
+      b.row(r) -= share * b.row(k);
+    }
+  }
+  for (Eigen::Index k = n - 1; k >= 0; --k) {
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      b.row(k) -= a(k, i) * b.row(i);
+    }
+    b.row(k) /= a(k, k);
+  }
+  return b;
 }
 
 }  // namespace twin::test

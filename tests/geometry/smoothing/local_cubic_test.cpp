@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <random>
+
+#include "core/linear_algebra.hpp"
 
 namespace twin::geometry {
 namespace local_cubic_test {
@@ -52,10 +53,10 @@ TEST(LocalCubic, IsTheLeastSquaresCubicOfManySamples) {
       a.row(i) << 1.0, x, x * x, x * x * x;
       b.row(i) = path_at(all, begin + 0.5 * (x + 1.0) * (end - begin));
     }
-    const Eigen::MatrixXd c = a.colPivHouseholderQr().solve(b);
+    const Eigen::MatrixXd c = solve_symmetric(transposed_product(a, a), transposed_product(a, b));
     const double middle = 0.3;  // blossom of 1, x, x^2, x^3 at (-1, 0.3, 1)
     const Vec3 blossom = c.row(0) + middle / 3.0 * c.row(1) - c.row(2) / 3.0 - middle * c.row(3);
-    const double rest = (a * c - b).squaredNorm() / kSamples;
+    const double rest = (a.lazyProduct(c) - b).squaredNorm() / kSamples;
     const LocalCubic cubic(all, polygon.block_at(begin, 0, 0, all.last), begin, end);
     EXPECT_LT((cubic.blossom(begin + 0.65 * (end - begin)) - blossom).norm(), 1e-6);
     EXPECT_NEAR(cubic.mean_square(), rest, 1e-6 * rest + 1e-10);
