@@ -8,6 +8,10 @@
 namespace twin::runtime {
 namespace {
 
+/// A path may pass its program by the chord tolerance, on its outer side too, so the guard of the
+/// travel lets that much pass; the check of the program lets nothing pass [mm].
+constexpr double kTravelRounding = 0.05;
+
 using WallClock = std::chrono::steady_clock;
 
 double seconds_since(WallClock::time_point start) noexcept {
@@ -24,15 +28,16 @@ motion::AxisServo make_servo(const hal::Machine* machine, std::size_t axis,
 
 Cycle::Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
              const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
-             const motion::SafetySettings& safety, double feedrate)
+             const motion::SafetySettings& safety, const Limits& limits)
     : interpolator_(interpolator),
       machine_(machine),
       period_(period),
+      limits_(limits),
       servos_{make_servo(machine, hal::kX, gains, period),
               make_servo(machine, hal::kY, gains, period)} {
   outputs_.servo_on = {true, true};
   if (machine != nullptr && !machine->info().follows_reference) {
-    monitors_.emplace(machine->info(), period, feedrate, safety);
+    monitors_.emplace(machine->info(), period, limits.feedrate, safety);
   }
 }
 
@@ -43,9 +48,36 @@ hal::Status Cycle::read(double interval) noexcept {
 
 motion::Status Cycle::prepare() noexcept {
   const auto start = WallClock::now();
+  const motion::SetPoint last = set_point_;
   const motion::Status status = interpolator_.step(set_point_);
+  if (status == motion::Status::kMoving) {
+    keep_in_travel(last);
+  }
   prepare_time_ = seconds_since(start);
   return status;
+}
+
+/// Goes back to the last set point where the present one lies outside the travel.
+void Cycle::keep_in_travel(const motion::SetPoint& last) noexcept {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double place = set_point_.position[axis];
+    const double low = limits_.travel_min[axis] - kTravelRounding;
+    const double high = limits_.travel_max[axis] + kTravelRounding;
+    if (place >= low && place <= high) {
+      continue;
+    }
+    if (!trip_ || !is_immediate(*trip_)) {
+      trip_ = stamped({.kind = motion::Kind::kOutsideTravel,
+                       .axis = axis < 2 ? static_cast<std::size_t>(axis) : motion::kAxisZ,
+                       .value = place,
+                       .limit = place < low ? limits_.travel_min[axis] : limits_.travel_max[axis]});
+    }
+    set_point_ = last;
+    set_point_.velocity.setZero();
+    set_point_.acceleration.setZero();
+    set_point_.feedrate = 0.0;
+    return;
+  }
 }
 
 Vec2 Cycle::position_of_counts() const noexcept {
@@ -121,11 +153,11 @@ bool Cycle::write() noexcept {
 }
 
 hal::Status Cycle::respond(results::Sample& sample) noexcept {
-  bool is_fine = true;
+  bool is_fine = !is_switched_off();
   if (machine_ != nullptr) {
     const auto start = WallClock::now();
     close_loops();
-    is_fine = is_safe();
+    is_fine = is_safe() && !is_switched_off();
     if (!is_fine) {
       outputs_.volts.fill(0.0);
       outputs_.servo_on.fill(false);

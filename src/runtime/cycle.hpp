@@ -27,16 +27,17 @@ namespace twin::runtime {
 /// throws, prints or touches a file, apart from what the interpolator's source does in prepare().
 ///
 /// The monitors (motion::Monitors) watch every machine that does not follow its reference exactly.
-/// trip() returns what they found first. If a trip calls for an immediate reaction, the cycle
+/// Before that, whatever the planner says, no set point outside the travel is ever used: the last
+/// one stays, which is a trip. trip() returns what was found first. If a trip calls for an immediate reaction, the cycle
 /// writes 0 V and servo off in the same period, returns kError, and writes nothing from then on.
 class Cycle {
  public:
   /// @param machine   an active machine; null to compute set points without a machine
   /// @param period    interpolation period T [s]
-  /// @param feedrate  largest feedrate of the machine [mm/s]
+  /// @param limits    largest feedrate and travel of the machine
   Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
         const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
-        const motion::SafetySettings& safety = {}, double feedrate = Limits{}.feedrate);
+        const motion::SafetySettings& safety = {}, const Limits& limits = {});
 
   /// Reads the inputs of the machine. Real-time safe.
   /// @param interval  time since the last read [s]
@@ -87,12 +88,15 @@ class Cycle {
   Vec2 true_position() const noexcept;
   void close_loops() noexcept;
   bool is_safe() noexcept;
+  bool is_switched_off() const noexcept { return trip_ && is_immediate(*trip_); }
+  void keep_in_travel(const motion::SetPoint& last) noexcept;
   bool write() noexcept;
   void fill(results::Sample& sample) const noexcept;
 
   motion::Interpolator& interpolator_;
   hal::Machine* machine_;
   double period_;
+  Limits limits_;
   std::array<motion::AxisServo, hal::kServoAxes> servos_;
   std::optional<motion::Monitors> monitors_;
   std::optional<motion::Trip> trip_;

@@ -51,6 +51,38 @@ TEST_F(CycleTest, AllocatesNothing) {
   EXPECT_GT(periods, 500);
 }
 
+TEST_F(CycleTest, SetPointOutsideTheTravelIsNeverSent) {
+  hal::ideal::IdealMachine ideal;
+  for (hal::Machine* const machine : std::initializer_list<hal::Machine*>{&ideal, nullptr}) {
+    SegmentQueue queue{100};
+    for (feedrate::PlannedSegment& segment : test::plan_text(kProgram)) {
+      queue.push(std::move(segment));
+    }
+    queue.close();
+    motion::Interpolator source{queue, kPeriod};
+    if (machine != nullptr) {
+      ASSERT_TRUE(checked(machine->configure(kPeriod)));
+      ASSERT_TRUE(checked(machine->activate()));
+    }
+    Limits limits;
+    limits.travel_max[0] = 5.0;
+    Cycle cycle(source, machine, gains, kPeriod, {}, limits);
+    double furthest = 0.0;
+    bool is_fine = true;
+    while (is_fine && cycle.prepare() == motion::Status::kMoving) {
+      is_fine = cycle.exchange(sample) == hal::Status::kOk;
+      furthest = std::max(furthest, sample.command.x());
+    }
+    EXPECT_FALSE(is_fine);
+    EXPECT_LE(furthest, 5.05);
+    EXPECT_GT(furthest, 4.9);
+    ASSERT_TRUE(cycle.trip());
+    EXPECT_EQ(cycle.trip()->kind, motion::Kind::kOutsideTravel);
+    EXPECT_EQ(cycle.trip()->axis, 0U);
+    EXPECT_GT(cycle.trip()->line, 0);
+  }
+}
+
 TEST_F(CycleTest, AllocatesNothingWithMonitorsOnTheWallClock) {
   hal::mujoco::TableParams params;
   params.model = TWIN_SOURCE_DIR "/mjcf/xy_table.xml";

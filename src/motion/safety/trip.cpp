@@ -43,6 +43,9 @@ std::string measure(const Trip& trip) {
                          trip.limit * 1e3);
     case Kind::kSamplesLost:
       return "samples came faster than they could be written";
+    case Kind::kOutsideTravel:
+      return fmt::format("the next set point is {:.4f} mm, its travel ends at {:g} mm", trip.value,
+                         trip.limit);
   }
   return "";
 }
@@ -72,6 +75,8 @@ std::string_view advice(Kind kind) {
       return "use a longer period, a free CPU or a real-time kernel, see [realtime]";
     case Kind::kSamplesLost:
       return "is the disk slow or full?";
+    case Kind::kOutsideTravel:
+      return "it was not sent; this is an error of the planner, please report the program";
   }
   return "";
 }
@@ -91,7 +96,7 @@ Reaction reaction_to(Kind kind) noexcept {
 }
 
 std::string describe(const Trip& trip) {
-  const std::string axis = trip.axis == kNoAxis ? "" : fmt::format("axis {}: ", "xy"[trip.axis]);
+  const std::string axis = trip.axis == kNoAxis ? "" : fmt::format("axis {}: ", "xy?z"[trip.axis]);
   const std::string place = trip.line == 0
                                 ? "before the first set point"
                                 : fmt::format("at t = {:.3f} s, NC line {}", trip.time, trip.line);

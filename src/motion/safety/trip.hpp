@@ -21,6 +21,7 @@ enum class Kind : std::uint8_t {
   kLatePeriods,    ///< several periods in a row began too late
   kStall,          ///< one period began far too late
   kSamplesLost,    ///< samples came faster than they could be written
+  kOutsideTravel,  ///< the next set point lies outside the travel, or is no number
 };
 
 /// What is done about it.
@@ -30,6 +31,7 @@ enum class Reaction : std::uint8_t {
 };
 
 inline constexpr std::size_t kNoAxis = 2;  ///< a trip that is not about one axis
+inline constexpr std::size_t kAxisZ = 3;   ///< the third axis, which has no servo
 
 /// What is done about a kind.
 Reaction reaction_to(Kind kind) noexcept;

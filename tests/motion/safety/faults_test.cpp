@@ -28,7 +28,7 @@ class Faults : public ::testing::Test {
     EXPECT_TRUE(checked(machine.activate()));
     test::InlinePlan plan(program, file);
     motion::Interpolator interpolator(plan.planning, kPeriod);
-    Cycle cycle(interpolator, &machine, file.servo, kPeriod, file.safety, file.limits.feedrate);
+    Cycle cycle(interpolator, &machine, file.servo, kPeriod, file.safety, file.limits);
     LockstepPace pace(plan.planning, stop);
     return run_motion(cycle, interpolator, plan.planning, samples, pace,
                       {.ready_timeout = file.safety.ready_timeout, .limits = file.limits}, stop);
