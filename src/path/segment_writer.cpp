@@ -16,14 +16,23 @@ constexpr double kStraight = 1e-6;  // turn that is none [rad]
 
 }  // namespace
 
+/// A curve that ends before the block begins, and has other demands, ends here.
+void SegmentWriter::add_block(const BlockDemand& block) {
+  if (blocks_.is_empty() && !latest_.has_same_demands(block)) {
+    flush();
+  }
+  blocks_.push_back(block);
+}
+
 /// Makes the block that goes on beyond s the current one; a curve ends where the demands change.
+/// The end of a curve may end several blocks, which are gone then.
 void SegmentWriter::advance_to(double s) {
   at_ = std::max(at_, blocks_.begin_index());
   while (at_ + 1 < blocks_.end_index() && blocks_[at_].end <= s) {
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
       flush();
     }
-    ++at_;
+    at_ = std::max(at_ + 1, blocks_.begin_index());
   }
 }
 
@@ -31,7 +40,7 @@ void SegmentWriter::cubic(const geometry::SpanCubic& piece, double deviation) {
   geometry::SpanCubic rest = piece;
   const double least = geometry::shortest_part(piece);
   advance_to(rest.begin + least);
-  while (blocks_[at_].end < rest.end - least && at_ + 1 < blocks_.end_index()) {
+  while (at_ + 1 < blocks_.end_index() && blocks_[at_].end < rest.end - least) {
     const double end = blocks_[at_].end;
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
       append(geometry::part_of(rest, rest.begin, end), deviation);
