@@ -35,7 +35,8 @@ struct BlockDemand {
 ///
 /// Successive cubic pieces become one curve of at most kMostSpans spans. A curve also ends where
 /// the requirements of the blocks change. A block that lies on several segments has a mark on each
-/// of them. If the tangent turns from one segment to the next, the path comes to rest there.
+/// of them. If the tangent turns from one segment to the next, the path comes to rest there. Where
+/// one of them is a NURBS of the program, a turn of up to 0.02 rad is left to the feedrate.
 ///
 /// A block counts as ended where a segment ends within 0.1 um of its end. The rest of such a block
 /// may still come, in pieces that no block is left for: they have the demands and the mark of the
@@ -60,6 +61,8 @@ class SegmentWriter {
   void end_curve() { flush(); }
   /// Gives all segments that are left to the sink.
   void finish();
+  /// Whether no segment has come out of what was appended.
+  bool is_empty() const noexcept { return is_empty_ && pieces_.empty(); }
 
  private:
   void flush();
@@ -80,6 +83,7 @@ class SegmentWriter {
   double deviation_ = 0.0;
   double tail_deviation_ = 0.0;  // of the blocks at the end of the last segment
   std::optional<Segment> last_;
+  bool is_empty_ = true;
 };
 
 }  // namespace twin::path
