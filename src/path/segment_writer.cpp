@@ -14,16 +14,36 @@ constexpr std::size_t kMostSpans = 32;
 constexpr double kSame = 1e-4;      // block ends this near to a segment's end are at it [mm]
 constexpr double kStraight = 1e-6;  // turn that is none [rad]
 
+/// Largest turn between a NURBS of the program and its neighbour that is passed as a corner, whose
+/// limits are those of JunctionLimits [rad]. CAM systems write curves that should be tangent with
+/// few decimals, which gives some 1e-4 rad. Twice as much would pass kinks that somebody can see at
+/// a feedrate hardly above rest.
+constexpr double kGentleTurn = 0.02;
+
+bool is_programmed_curve(const Segment& segment) {
+  const auto* curve = std::get_if<FittedCurve>(&segment.geometry);
+  return curve != nullptr && curve->is_programmed;
+}
+
 }  // namespace
 
+/// A curve that ends before the block begins, and has other demands, ends here.
+void SegmentWriter::add_block(const BlockDemand& block) {
+  if (blocks_.is_empty() && !latest_.has_same_demands(block)) {
+    flush();
+  }
+  blocks_.push_back(block);
+}
+
 /// Makes the block that goes on beyond s the current one; a curve ends where the demands change.
+/// The end of a curve may end several blocks, which are gone then.
 void SegmentWriter::advance_to(double s) {
   at_ = std::max(at_, blocks_.begin_index());
   while (at_ + 1 < blocks_.end_index() && blocks_[at_].end <= s) {
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
       flush();
     }
-    ++at_;
+    at_ = std::max(at_ + 1, blocks_.begin_index());
   }
 }
 
@@ -31,7 +51,7 @@ void SegmentWriter::cubic(const geometry::SpanCubic& piece, double deviation) {
   geometry::SpanCubic rest = piece;
   const double least = geometry::shortest_part(piece);
   advance_to(rest.begin + least);
-  while (blocks_[at_].end < rest.end - least && at_ + 1 < blocks_.end_index()) {
+  while (at_ + 1 < blocks_.end_index() && blocks_[at_].end < rest.end - least) {
     const double end = blocks_[at_].end;
     if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
       append(geometry::part_of(rest, rest.begin, end), deviation);
@@ -144,11 +164,14 @@ void SegmentWriter::whole(Segment&& segment) {
 /// One segment is kept back until it is known whether the path turns at its end.
 void SegmentWriter::emit(Segment&& segment) {
   if (last_) {
-    const bool turns = (last_->end.tangent - segment.begin.tangent).norm() > kStraight;
+    const bool is_free = is_programmed_curve(*last_) || is_programmed_curve(segment);
+    const bool turns =
+        (last_->end.tangent - segment.begin.tangent).norm() > (is_free ? kGentleTurn : kStraight);
     last_->stops_at_end = last_->stops_at_end || (turns && segment.length > 0.0);
     sink_(std::move(*last_));
   }
   last_ = std::move(segment);
+  is_empty_ = false;
 }
 
 void SegmentWriter::finish() {

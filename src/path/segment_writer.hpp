@@ -35,12 +35,17 @@ struct BlockDemand {
 ///
 /// Successive cubic pieces become one curve of at most kMostSpans spans. A curve also ends where
 /// the requirements of the blocks change. A block that lies on several segments has a mark on each
-/// of them. If the tangent turns from one segment to the next, the path comes to rest there.
+/// of them. If the tangent turns from one segment to the next, the path comes to rest there. Where
+/// one of them is a NURBS of the program, a turn of up to 0.02 rad is left to the feedrate.
+///
+/// A block counts as ended where a segment ends within 0.1 um of its end. The rest of such a block
+/// may still come, in pieces that no block is left for: they have the demands and the mark of the
+/// block that ended last.
 class SegmentWriter {
  public:
   explicit SegmentWriter(Builder::Sink sink) : sink_(std::move(sink)) {}
 
-  void add_block(const BlockDemand& block) { blocks_.push_back(block); }
+  void add_block(const BlockDemand& block);
 
   /// Appends a cubic piece.
   /// @param deviation  no point of the piece or of the program is farther from the other [mm]
@@ -56,6 +61,8 @@ class SegmentWriter {
   void end_curve() { flush(); }
   /// Gives all segments that are left to the sink.
   void finish();
+  /// Whether no segment has come out of what was appended.
+  bool is_empty() const noexcept { return is_empty_ && pieces_.empty(); }
 
  private:
   void flush();
@@ -70,12 +77,13 @@ class SegmentWriter {
   Builder::Sink sink_;
   geometry::SlidingVector<BlockDemand> blocks_;  // blocks that may lie on further pieces
   BlockDemand latest_;                           // last block that has ended
-  std::size_t at_ = 0;                           // block of the latest piece
-  std::size_t first_ = 0;                        // block that sets the current segment's demands
-  std::vector<geometry::SpanCubic> pieces_;      // of the current curve
+  std::size_t at_ = 0;     // block of the latest piece; one past the last where none is left for it
+  std::size_t first_ = 0;  // block that sets the current segment's demands
+  std::vector<geometry::SpanCubic> pieces_;  // of the current curve
   double deviation_ = 0.0;
   double tail_deviation_ = 0.0;  // of the blocks at the end of the last segment
   std::optional<Segment> last_;
+  bool is_empty_ = true;
 };
 
 }  // namespace twin::path

@@ -179,7 +179,19 @@ void SmoothBuilder::emit_whole(Segment&& segment) {
 void SmoothBuilder::finish() {
   end_lines();
   joiner_.finish();
+  if (writer_.is_empty() && next_block_ > 0) {
+    writer_.whole(rest_at_start());
+  }
   writer_.finish();
+}
+
+/// What is left of a program whose blocks are all specks that lead back to where it starts.
+Segment SmoothBuilder::rest_at_start() const {
+  Segment rest;
+  rest.stops_at_end = true;
+  rest.begin.position = rest.end.position = line_.start;
+  rest.marks.push_back({0.0, line_.demand.length, line_.demand.number, line_.demand.line});
+  return rest;
 }
 
 }  // namespace twin::path

@@ -27,7 +27,11 @@ namespace twin::path {
 /// and after it meet there. The bound of the deviation includes the error that this makes.
 ///
 /// A block of G61 is not changed and ends at rest; a block that meets it at an angle is treated
-/// likewise. The same holds for the NURBS of the program.
+/// likewise. The NURBS of the program are not changed either. The path comes to rest where one meets
+/// its neighbour at an angle, unless the angle is so small that it can be passed (SegmentWriter).
+///
+/// Of a program of nothing but tiny lines a rest at its start is left, so that every program has a
+/// path.
 class SmoothBuilder : public Builder {
  public:
   SmoothBuilder(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
@@ -66,6 +70,7 @@ class SmoothBuilder : public Builder {
   void end_lines();
   void push_arc(const gcode::Block& block, std::int64_t number);
   void emit_whole(Segment&& segment);
+  Segment rest_at_start() const;
 
   PathSettings settings_;
   PlanningModel model_;

@@ -152,6 +152,13 @@ void FeedControl::look_at_offer(bool holds) noexcept {
   replanning_.answer(Verdict::kRejected);
 }
 
+void FeedControl::decline() noexcept {
+  if (state_ == State::kAsked && replanning_.offer() != nullptr) {
+    replanning_.answer(Verdict::kRejected);
+    state_ = State::kFollowing;
+  }
+}
+
 /// Whether the plan that was taken is the one that is followed by now.
 void FeedControl::follow_up(double t, bool holds) noexcept {
   const bool is_at_rest = interpolator_.is_at_rest();

@@ -45,6 +45,9 @@ class FeedControl {
   /// set point. Real-time safe on the wall clock.
   /// @param t  time since the first set point [s]
   void update(double t) noexcept;
+  /// Rejects an offer that has come while the motion waits for a segment. The planning waits for the
+  /// answer before it goes on, so without one both would wait for ever. Real-time safe.
+  void decline() noexcept;
   /// Whether the motion rests because the operator asked for it. Such a rest is a part of the
   /// motion and is recorded; a rest for lack of planned path is not.
   bool is_hold() const noexcept { return is_hold_; }

@@ -217,8 +217,12 @@ std::optional<MotionEnd> Motion::follow_path() {
   }
   guard_supply();
   FeedControl* const feed = options_.feed;
-  if (feed != nullptr && !has_to_stop() && status_ != motion::Status::kStarved) {
-    feed->update(cycle_.time());
+  if (feed != nullptr && !has_to_stop()) {
+    if (status_ == motion::Status::kStarved) {
+      feed->decline();
+    } else {
+      feed->update(cycle_.time());
+    }
   }
   status_ = cycle_.prepare();
   if (status_ == motion::Status::kDone) {

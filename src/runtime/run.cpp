@@ -228,6 +228,12 @@ results::Summary Run::summarise(double wall_time) {
         fmt::format("{} has changed since it was read; this run is of the program as it was then",
                     summary.program));
   }
+  if (figures.blocks > 0 && figures.path_length == 0.0) {
+    summary.notes.push_back(fmt::format(
+        "nothing moves: all {} blocks of {} are far shorter than the tolerance and lead "
+        "back to its start",
+        figures.blocks, summary.program));
+  }
   summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
   if (summary.run) {

@@ -59,6 +59,18 @@ bool Glide::plan(std::span<const LimitZone> zones, const Anchor& start, const An
     has_zone_ramps_ =
         has_zone_ramps_ || zone.acceleration < ramp.acceleration || zone.jerk < ramp.jerk;
   }
+  if (plan_legs(start, end)) {
+    return true;
+  }
+  if (!has_zone_ramps_) {
+    return false;
+  }
+  ramp_ = ramp_of(0, zones.size());
+  has_zone_ramps_ = false;
+  return plan_legs(start, end);
+}
+
+bool Glide::plan_legs(const Anchor& start, const Anchor& end) {
   phases_.clear();
   parts_.clear();
   legs_.clear();
@@ -67,10 +79,10 @@ bool Glide::plan(std::span<const LimitZone> zones, const Anchor& start, const An
   for (Ascent& ascent : ascents_) {
     free_.push_back(&ascent);
   }
-  const RampLimits whole = ramp_of(0, zones.size());
+  const RampLimits whole = ramp_of(0, zones_.size());
   Ascent* up = ascent_from(start, Sense::kForward, 0, whole);
-  Ascent* down = ascent_from(end, Sense::kBackward, zones.size() - 1, whole);
-  pending_.push_back({start, end, up, down, 0, zones.size(), whole});
+  Ascent* down = ascent_from(end, Sense::kBackward, zones_.size() - 1, whole);
+  pending_.push_back({start, end, up, down, 0, zones_.size(), whole});
   while (!pending_.empty()) {
     const Leg leg = pending_.back();
     pending_.pop_back();
@@ -234,8 +246,9 @@ Glide::Resolution Glide::resolve(Leg& leg, const Violation& violation) {
     const double way_in =
         v < leg.a.v ? ramp_distance(leg.a.v, v, leg.ramp) : leg.up->exit_at(v).distance;
     const bool has_in = way_in <= room_up + kPlaceRounding;
-    const bool has_out =
-        v >= leg.b.v && leg.down->exit_at(v).distance <= room_down + kPlaceRounding;
+    const double way_out =
+        v < leg.b.v ? ramp_distance(v, leg.b.v, leg.ramp) : leg.down->exit_at(v).distance;
+    const bool has_out = way_out <= room_down + kPlaceRounding;
     if (has_in && has_out) {
       split(leg, violation.zone);
       return Resolution::kSplit;

@@ -36,6 +36,12 @@ namespace twin::feedrate {
 /// Zones with low limits come first, and each step lowers the feedrate everywhere. So a zone whose
 /// limit is kept once stays so. Zones that are treated later have higher limits than every anchor,
 /// so anchors can always be reached, and from rest there is always a plan.
+///
+/// That holds with one acceleration and one jerk for all zones. Where zones have their own, the legs
+/// beside a valley may be faster than the summit before they were split off, and may then not keep a
+/// zone that it kept. Such a zone is treated as any other. Where its limit is too low for an anchor
+/// that is there already, the whole is planned again with the least acceleration and jerk of all
+/// zones.
 class Glide {
  public:
   /// One summit of the result.
@@ -93,6 +99,7 @@ class Glide {
   Ascent* ascent_from(const Anchor& anchor, Sense sense, std::size_t zone, const RampLimits& ramp);
   void release(const Leg& leg);
   RampLimits ramp_of(std::size_t first, std::size_t last) const;
+  bool plan_legs(const Anchor& start, const Anchor& end);
   bool plan_leg(Leg leg);
   void climb(const Leg& leg);
   std::optional<Violation> find_violation(const Leg& leg) const;

@@ -1,6 +1,7 @@
 #include "feedrate/certified/glide_planner.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -51,7 +52,11 @@ void GlidePlanner::advance(Window& window, double horizon, Tail tail) {
     least_.acceleration = std::min(least_.acceleration, zone.acceleration);
     least_.jerk = std::min(least_.jerk, zone.jerk);
   }
-  while (!plan_until(window, horizon)) {
+  while (!plan_until(window.zones, window.start, horizon)) {  // each turn takes a way out less
+    if (window.start.v == 0.0 && plan_.empty()) {
+      plan_evenly(window, horizon);
+      break;
+    }
     if (!fall_back(window, horizon, tail)) {
       return;
     }
@@ -73,12 +78,12 @@ void GlidePlanner::forget(double distance) {
   }
 }
 
-bool GlidePlanner::plan_until(const Window& window, double horizon) {
-  const Anchor& start = window.start;
-  const auto from =
-      std::find_if(window.zones.begin(), window.zones.end(),
-                   [&](const LimitZone& zone) { return zone.end > start.s + kPlaceRounding; });
-  const auto to = std::partition_point(from, window.zones.end(), [&](const LimitZone& zone) {
+bool GlidePlanner::plan_until(std::span<const LimitZone> zones, const Anchor& start,
+                              double horizon) {
+  const auto from = std::find_if(zones.begin(), zones.end(), [&](const LimitZone& zone) {
+    return zone.end > start.s + kPlaceRounding;
+  });
+  const auto to = std::partition_point(from, zones.end(), [&](const LimitZone& zone) {
     return zone.begin < horizon - kPlaceRounding;
   });
   if (!glide_.plan({from, to}, start, {horizon, 0.0}, ramp_)) {
@@ -87,6 +92,21 @@ bool GlidePlanner::plan_until(const Window& window, double horizon) {
   plan_ = glide_.phases();
   legs_ = glide_.legs();
   return true;
+}
+
+/// From rest, with the lowest limits of all zones everywhere, a plan always exists.
+void GlidePlanner::plan_evenly(const Window& window, double horizon) {
+  ++fallbacks_;
+  std::vector<LimitZone> even(window.zones);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const LimitZone& zone : even) {
+    lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
+  }
+  for (LimitZone& zone : even) {
+    zone = {zone.begin, zone.end, std::min(zone.limit, lowest), least_.acceleration, least_.jerk};
+  }
+  [[maybe_unused]] const bool is_planned = plan_until(even, window.start, horizon);
+  assert(is_planned);
 }
 
 /// Makes the next plan possible; false where that needs more of the path.

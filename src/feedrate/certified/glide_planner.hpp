@@ -44,7 +44,8 @@ class GlidePlanner final : public WindowPlanner {
   };
 
   void advance(Window& window, double horizon, Tail tail) override;
-  bool plan_until(const Window& window, double horizon);
+  bool plan_until(std::span<const LimitZone> zones, const Anchor& start, double horizon);
+  void plan_evenly(const Window& window, double horizon);
   bool fall_back(Window& window, double horizon, Tail tail);
   double descent_to(const Window& window, std::size_t zone, double v, double most);
   double room_after(const Window& window, const Anchor& anchor, double horizon);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -15,8 +16,9 @@ class SlidingVector {
   std::size_t size() const noexcept { return items_.size() - dead_; }
   bool is_empty() const noexcept { return size() == 0; }
 
-  T& operator[](std::size_t i) noexcept { return items_[i - base_]; }
-  const T& operator[](std::size_t i) const noexcept { return items_[i - base_]; }
+  /// The element of index i, which must have come and not been forgotten.
+  T& operator[](std::size_t i) noexcept { return items_[checked(i)]; }
+  const T& operator[](std::size_t i) const noexcept { return items_[checked(i)]; }
   T& front() noexcept { return items_[dead_]; }
   const T& front() const noexcept { return items_[dead_]; }
   T& back() noexcept { return items_.back(); }
@@ -49,6 +51,12 @@ class SlidingVector {
 
  private:
   static constexpr std::size_t kLeast = 64;  // elements worth moving the others for
+
+  /// Place of index i in memory.
+  std::size_t checked(std::size_t i) const noexcept {
+    assert(i - base_ < items_.size());
+    return i - base_;
+  }
 
   std::vector<T> items_;
   std::size_t dead_ = 0;  // forgotten elements that are still in memory
