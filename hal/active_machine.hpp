@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/error.hpp"
+#include "core/must_finish.hpp"
 #include "hal/machine.hpp"
 
 namespace twin::hal {
@@ -26,6 +27,7 @@ class ActiveMachine {
   }
 
  private:
+  MustFinish finish_;
   Machine* machine_;
 };
 

@@ -18,9 +18,7 @@ std::array<struct sigaction, kFatal.size()> previous;
 /// Hands the signal on to whatever handled it before: the end of the process, or a sanitizer's
 /// report and then that.
 extern "C" void stop_and_die(int signal) {
-  if (Cards* const cards = registered.exchange(nullptr)) {
-    cards->make_safe();
-  }
+  make_registered_cards_safe();
   for (std::size_t i = 0; i < kFatal.size(); ++i) {
     if (kFatal[i] == signal) {
       sigaction(signal, &previous[i], nullptr);
@@ -34,6 +32,12 @@ extern "C" void stop_and_die(int signal) {
 EmergencyStop::EmergencyStop(Cards& cards) noexcept { registered = &cards; }
 
 EmergencyStop::~EmergencyStop() { registered = nullptr; }
+
+void make_registered_cards_safe() noexcept {
+  if (Cards* const cards = registered.exchange(nullptr)) {
+    cards->make_safe();
+  }
+}
 
 void install_emergency_handlers() {
   static const bool is_installed = [] {

@@ -19,4 +19,7 @@ class EmergencyStop {
 /// usual.
 void install_emergency_handlers();
 
+/// Makes the registered cards safe, if there are any; at most once. A signal handler may call it.
+void make_registered_cards_safe() noexcept;
+
 }  // namespace twin::hal::rig

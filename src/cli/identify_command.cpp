@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <utility>
 #include <vector>
 
@@ -60,8 +58,8 @@ Expected<void> identify_traces(const IdentifyArguments& arguments,
   TWIN_CHECK(write_whole_file(file, studies::identify::to_machine_file(*result)));
   TWIN_CHECK(write_whole_file(details, studies::identify::to_json(*result, file)));
   if (arguments.verbosity == Verbosity::kNormal) {
-    fmt::print("{}\nmachine file {}, details in {}\n", studies::identify::to_table(*result),
-               file.string(), details.string());
+    print_out("{}\nmachine file {}, details in {}\n", studies::identify::to_table(*result),
+              file.string(), details.string());
   }
   for (const std::string& note : result->notes) {
     print_note(note);
@@ -90,7 +88,7 @@ Expected<void> identify_tables(const IdentifyArguments& arguments,
   }
   TWIN_CHECK(write_whole_file(file, config::to_toml(fit->machine)));
   if (arguments.verbosity == Verbosity::kNormal) {
-    fmt::print("{}machine file: {}\n", studies::reproduce::to_table(*fit), file.string());
+    print_out("{}machine file: {}\n", studies::reproduce::to_table(*fit), file.string());
   }
   if (fit->was_stopped) {
     return fail(ErrorCode::kInterrupted, "interrupted: the machine file has the best so far");

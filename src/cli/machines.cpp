@@ -34,8 +34,8 @@ Expected<void> confirm_motion(const hal::MachineInfo& machine, session::Consent 
                                        "' is real and would move; say so with --i-know-it-moves, "
                                        "or start it at a terminal and confirm there");
   }
-  fmt::print("This is a REAL machine. {} will move it. Type move to go on: ", purpose);
-  std::fflush(stdout);
+  print_out("This is a REAL machine. {} will move it. Type move to go on: ", purpose);
+  static_cast<void>(finish_output());
   std::string answer;
   std::getline(std::cin, answer);
   if (answer != "move") {

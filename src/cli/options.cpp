@@ -190,6 +190,9 @@ void add_options(CLI::App& command, RunArguments& run) {
       .add_option("--control", run.control,
                   "On the wall clock: listen at a Unix domain socket of this name for override "
                   "PERCENT, hold, resume, status (you alone may connect)")
+      ->check([](const std::string& name) {
+        return std::string(name.empty() ? "the socket needs a name" : "");
+      })
       ->type_name("PATH");
   add_results(command, run.results);
   add_video(command, run.video);

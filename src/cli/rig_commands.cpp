@@ -60,23 +60,23 @@ std::string signal(const rig::Line& line, bool given, const char* yes, const cha
 void print_cards(const rig::io_port::CardKind& kind, const rig::RigSettings& settings) {
   for (const rig::io_port::CardSeen& card :
        rig::io_port::look_for_cards(kind, settings.access, settings.sysfs)) {
-    fmt::print("  {:<10}{}, {}\n", kind.name, card.pci.address,
-               card.why.empty() ? fmt::format("board ID {}, {}", card.board_id, to_text(card.port))
-                                : card.why);
+    print_out("  {:<10}{}, {}\n", kind.name, card.pci.address,
+              card.why.empty() ? fmt::format("board ID {}, {}", card.board_id, to_text(card.port))
+                               : card.why);
   }
 }
 
 void print_axis(char name, const rig::AxisWiring& wiring, const rig::RigView& view,
                 std::size_t axis) {
   const rig::DriveInputs& drive = view.drives[axis];
-  fmt::print("  axis {}    DAC {}, counter {}: {} counts\n", name, wiring.dac, wiring.counter,
-             view.counts[axis]);
-  fmt::print("            ALM {}, servo ready {}, P-OT {}, N-OT {}, V-REF {}\n",
-             signal(wiring.alarm, drive.alarm, "ALARM (or wire open)", "no alarm"),
-             signal(wiring.ready, drive.ready, "yes", "no"),
-             signal(wiring.limit_positive, drive.limit_positive, "REACHED (or wire open)", "free"),
-             signal(wiring.limit_negative, drive.limit_negative, "REACHED (or wire open)", "free"),
-             view.vref[axis] ? fmt::format("{:.4f} V", *view.vref[axis]) : "not read back");
+  print_out("  axis {}    DAC {}, counter {}: {} counts\n", name, wiring.dac, wiring.counter,
+            view.counts[axis]);
+  print_out("            ALM {}, servo ready {}, P-OT {}, N-OT {}, V-REF {}\n",
+            signal(wiring.alarm, drive.alarm, "ALARM (or wire open)", "no alarm"),
+            signal(wiring.ready, drive.ready, "yes", "no"),
+            signal(wiring.limit_positive, drive.limit_positive, "REACHED (or wire open)", "free"),
+            signal(wiring.limit_negative, drive.limit_negative, "REACHED (or wire open)", "free"),
+            view.vref[axis] ? fmt::format("{:.4f} V", *view.vref[axis]) : "not read back");
 }
 
 }  // namespace
@@ -85,18 +85,18 @@ Expected<void> execute(const RigProbeArguments& arguments, const Environment&) {
   TWIN_TRY(auto machine, read_machine(arguments.machine, Verbosity::kNormal));
   TWIN_TRY(const RigToLookAt rig_seen, open_to_look(arguments.rig, std::move(machine)));
   const rig::RigSettings& settings = rig_seen.settings;
-  fmt::print("rig: {}\n", describe(rig_seen.kind));
+  print_out("rig: {}\n", describe(rig_seen.kind));
   if (rig_seen.kind == rig::assemble::RigKind::kCards) {
     print_cards(rig::io_port::kPci1716, settings);
     print_cards(rig::io_port::kPci1784, settings);
   }
   const rig::RigView view =
       rig::look_at_rig(*rig_seen.ports.pci1716, *rig_seen.ports.pci1784, settings);
-  fmt::print(
+  print_out(
       "  PCI-1716  board ID {}, converters used at +-10 V (their registers cannot be read), "
       "DI {:#06x}\n",
       view.board_id_1716, view.digital);
-  fmt::print("  PCI-1784  board ID {}\n", view.board_id_1784);
+  print_out("  PCI-1784  board ID {}\n", view.board_id_1784);
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     print_axis("xy"[axis], settings.axis[axis], view, axis);
   }
@@ -114,7 +114,7 @@ Expected<void> execute(const RigMonitorArguments& arguments, const Environment& 
   const rig::assemble::RigPorts& ports = rig_seen.ports;
   const hal::MachineInfo info =
       rig::assemble::rig_info(rig_seen.machine.rig, rig_seen.machine.table);
-  fmt::print("rig: {}; Ctrl-C ends this\n", describe(rig_seen.kind));
+  print_out("rig: {}; Ctrl-C ends this\n", describe(rig_seen.kind));
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
   const auto start = Clock::now();
   for (auto next = start; !environment.stop.load(); next += kInterval) {
@@ -127,14 +127,14 @@ Expected<void> execute(const RigMonitorArguments& arguments, const Environment& 
     if (view.board_id_1716 < 0 || view.board_id_1784 < 0) {
       return fail(ErrorCode::kMachine, "a card does not answer: all its registers read ones");
     }
-    fmt::print("{}{:8.1f} s{}{}  DI {:#06x}{}", is_terminal ? "\r" : "", t,
-               axis_text(hal::kX, view, info.mm_per_count[hal::kX]),
-               axis_text(hal::kY, view, info.mm_per_count[hal::kY]), view.digital,
-               is_terminal ? "" : "\n");
-    std::fflush(stdout);
+    print_out("{}{:8.1f} s{}{}  DI {:#06x}{}", is_terminal ? "\r" : "", t,
+              axis_text(hal::kX, view, info.mm_per_count[hal::kX]),
+              axis_text(hal::kY, view, info.mm_per_count[hal::kY]), view.digital,
+              is_terminal ? "" : "\n");
+    TWIN_CHECK(finish_output());
   }
   if (is_terminal) {
-    fmt::print("\n");
+    print_out("\n");
   }
   return {};
 }
@@ -156,9 +156,9 @@ studies::commissioning::WaitForPeriod make_wait(const hal::MachineInfo& info, do
 }
 
 void print_wiring(char name, const AxisWiringReport& report) {
-  fmt::print("  {}  {:>10.3f} {:>10.2f} {:>12.3f} {:>12.3f}   {}\n", name, report.drift,
-             report.offset() * 1e3, report.expected_scale, report.measured_scale,
-             studies::commissioning::advice(report, std::string(1, name)));
+  print_out("  {}  {:>10.3f} {:>10.2f} {:>12.3f} {:>12.3f}   {}\n", name, report.drift,
+            report.offset() * 1e3, report.expected_scale, report.measured_scale,
+            studies::commissioning::advice(report, std::string(1, name)));
 }
 
 const char* simulated_mark(const hal::Machine& machine) {
@@ -175,9 +175,9 @@ Expected<void> execute(const RigCheckArguments& arguments, const Environment& en
   TWIN_TRY(const auto report,
            studies::commissioning::check_wiring(
                rig, {}, machine.period, make_wait(rig.info(), machine.period), environment.stop));
-  fmt::print("wiring check{}\n", simulated_mark(rig));
-  fmt::print("  {:<3}{:>10} {:>10} {:>12} {:>12}\n", "", "drift", "offset", "expected", "measured");
-  fmt::print("  {:<3}{:>10} {:>10} {:>12} {:>12}\n", "", "mm/s", "mV", "mm/s/V", "mm/s/V");
+  print_out("wiring check{}\n", simulated_mark(rig));
+  print_out("  {:<3}{:>10} {:>10} {:>12} {:>12}\n", "", "drift", "offset", "expected", "measured");
+  print_out("  {:<3}{:>10} {:>10} {:>12} {:>12}\n", "", "mm/s", "mV", "mm/s/V", "mm/s/V");
   std::string wrong;
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     print_wiring("xy"[axis], report[axis]);
@@ -213,7 +213,7 @@ Expected<void> execute(const RigJogArguments& arguments, const Environment& envi
   }
   if (arguments.results.verbosity == Verbosity::kNormal) {
     const auto& error = result.summary.run->tracking_error[move.axis];
-    fmt::print(
+    print_out(
         "axis {} jogged by {:g} mm{}: tracking error max {:.1f}, RMS {:.1f} um; trace in {}\n",
         arguments.axis, move.distance, simulated_mark(*rig), units::um_from_mm(error.max),
         units::um_from_mm(error.rms), session::result_folder(move.folder, "rig_jog").string());
@@ -229,8 +229,8 @@ Expected<void> execute(const RigHomeArguments& arguments, const Environment& env
                     fmt::format("rig home drives axis {} to its switch and", arguments.axis)));
   const auto tell = [verbosity](const std::string& line) {
     if (verbosity == Verbosity::kNormal) {
-      fmt::print("{}\n", line);
-      std::fflush(stdout);
+      print_out("{}\n", line);
+      static_cast<void>(finish_output());
     }
   };
   TWIN_CHECK(studies::commissioning::run_homing(
@@ -253,8 +253,8 @@ Expected<void> execute(const RigEmulateArguments& arguments, const Environment& 
     settings.faults.push_back(fault);
   }
   const auto tell = [](std::string_view line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+    print_out("{}\n", line);
+    static_cast<void>(finish_output());
   };
   settings.started = [&] {
     tell(fmt::format("emulated rig (simulated), process {}, registers in {}; Ctrl-C ends it",

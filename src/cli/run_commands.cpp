@@ -76,7 +76,7 @@ Expected<runtime::RunResult> run_with_operator(session::Session& session, Verbos
 Expected<void> report_run(const session::Session& session, const runtime::RunResult& result,
                           Verbosity verbosity) {
   if (verbosity == Verbosity::kNormal) {
-    fmt::print("{}", results::to_table(result.summary, session.machine().limits));
+    print_out("{}", results::to_table(result.summary, session.machine().limits));
   }
   return result.failure ? tl::unexpected(*result.failure) : Expected<void>();
 }
@@ -94,7 +94,7 @@ Expected<void> make_pictures(const session::Session& session, const ResultArgume
     TWIN_CHECK(session.render_video(video.camera, progress.callback()));
   }
   if (results.verbosity == Verbosity::kNormal) {
-    fmt::print("results in {}\n", session.folder().string());
+    print_out("results in {}\n", session.folder().string());
   }
   return {};
 }
@@ -176,7 +176,7 @@ Expected<void> check_program_of(const std::string& name, const CheckArguments& a
            runtime::estimate_program(program, reading, machine, &stop));
   if (arguments.verbosity == Verbosity::kNormal) {
     const runtime::ProgramFigures& figures = estimate.program;
-    fmt::print(
+    print_out(
         "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
         "cycle time {:.3f} s\n",
         program.file().string(), figures.blocks, figures.length, figures.box_min.x(),
@@ -206,7 +206,7 @@ Expected<void> execute(const CheckArguments& arguments, const Environment& envir
 // Help and version.
 
 Expected<void> execute(const TextArguments& arguments, const Environment&) {
-  fmt::print("{}", arguments.text);
+  print_out("{}", arguments.text);
   return {};
 }
 

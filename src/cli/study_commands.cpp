@@ -81,9 +81,9 @@ Expected<void> compare_contestants(const ResultArguments& results,
                       results.has_plots ? pictures::Drawing::kDrawn : pictures::Drawing::kLeftOut));
   }
   if (results.verbosity == Verbosity::kNormal) {
-    fmt::print("{}\n", to_text(grid_of_interpolators(*comparison)));
+    print_out("{}\n", to_text(grid_of_interpolators(*comparison)));
     if (!comparison->fluctuations.empty()) {
-      fmt::print("{}\n", to_text(grid_of_fluctuations(*comparison)));
+      print_out("{}\n", to_text(grid_of_fluctuations(*comparison)));
     }
   }
   return {};
@@ -104,7 +104,7 @@ Expected<void> compare_planners(const ResultArguments& results, studies::compare
   }
   TWIN_CHECK(write_planner_table(*rows, workshop));
   if (results.verbosity == Verbosity::kNormal) {
-    fmt::print("{}\n", to_text(grid_of_planners(*rows)));
+    print_out("{}\n", to_text(grid_of_planners(*rows)));
   }
   return {};
 }
@@ -124,7 +124,7 @@ Expected<void> execute(const CompareArguments& arguments, const Environment& env
   TWIN_CHECK(is_one ? compare_contestants(arguments.results, request, workshop)
                     : compare_planners(arguments.results, request, programs, workshop));
   if (arguments.results.verbosity == Verbosity::kNormal) {
-    fmt::print("results in {}\n", out.string());
+    print_out("results in {}\n", out.string());
   }
   return {};
 }
@@ -134,13 +134,13 @@ Expected<void> execute(const CompareArguments& arguments, const Environment& env
 namespace {
 
 void print(const studies::reproduce::Reproduction& reproduction) {
-  fmt::print("{}\nA ratio is ours / published; ! marks one that is more than 30 % off.\n\n",
-             reproduction.source);
+  print_out("{}\nA ratio is ours / published; ! marks one that is more than 30 % off.\n\n",
+            reproduction.source);
   for (int table = studies::reproduce::kFirstTable; table <= studies::reproduce::kLastTable;
        ++table) {
-    fmt::print("{}\n", to_text(grid_of_table(reproduction, table)));
+    print_out("{}\n", to_text(grid_of_table(reproduction, table)));
   }
-  fmt::print("{}\n{}\n\n", to_text(grid_of_counts(reproduction)), unreached(reproduction));
+  print_out("{}\n{}\n\n", to_text(grid_of_counts(reproduction)), unreached(reproduction));
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ Expected<void> execute(const ReproduceArguments& arguments, const Environment& e
   }
   if (results.verbosity == Verbosity::kNormal) {
     print(*reproduction);
-    fmt::print("tables and figures: {}\n", (out / "index.html").string());
+    print_out("tables and figures: {}\n", (out / "index.html").string());
   }
   return {};
 }
@@ -219,7 +219,7 @@ Expected<void> execute(const CircleArguments& arguments, const Environment& envi
   test.folder = session::result_folder(arguments.results.folder, "circle");
   TWIN_TRY(const auto run, run_with_progress(test, verbosity, environment.stop));
   if (verbosity == Verbosity::kNormal) {
-    fmt::print("{}", studies::circular::to_table(run.report));
+    print_out("{}", studies::circular::to_table(run.report));
   }
   if (arguments.results.has_plots) {
     Progress progress("plots", verbosity);
@@ -227,7 +227,7 @@ Expected<void> execute(const CircleArguments& arguments, const Environment& envi
     TWIN_CHECK(studies::circular::draw_circle_test(test, run));
   }
   if (verbosity == Verbosity::kNormal) {
-    fmt::print("results in {}\n", test.folder.string());
+    print_out("results in {}\n", test.folder.string());
   }
   return {};
 }
@@ -275,8 +275,8 @@ Expected<void> execute(const ConvertArguments& arguments, const Environment& env
   TWIN_TRY(const auto checked, studies::convert::convert_and_check(job, arguments.dialect));
   TWIN_CHECK(write_whole_file(file, checked.conversion.text));
   if (arguments.verbosity == Verbosity::kNormal) {
-    fmt::print("{}written to {}\n", studies::convert::to_table(job, arguments.dialect, checked),
-               file.string());
+    print_out("{}written to {}\n", studies::convert::to_table(job, arguments.dialect, checked),
+              file.string());
   }
   return {};
 }

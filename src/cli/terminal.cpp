@@ -1,12 +1,14 @@
 #include "cli/terminal.hpp"
 
-#include <fmt/core.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <utility>
+
+#include "core/atomic_file.hpp"
 
 namespace twin::cli {
 namespace {
@@ -23,10 +25,35 @@ std::size_t columns_of_stderr() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
-void print_message(const std::string& text) {
+/// Writes on stderr. That it cannot be written is nothing that could be told.
+void put_error(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+/// A text whose control characters are shown, so that it is one line and no terminal obeys it.
+std::string visible(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    shown += code < 32 || code == 127 ? fmt::format("\\x{:02X}", code) : std::string(1, c);
+  }
+  return shown;
+}
+
+void print_message(std::string_view text) {
+  const std::string line = visible(text);
   const std::size_t columns = columns_of_stderr();
-  fmt::print(stderr, "{}\n",
-             columns > 2 * kMessageIndent ? wrapped(text, kMessageIndent, 0, columns) : text);
+  put_error((columns > 2 * kMessageIndent ? wrapped(line, kMessageIndent, 0, columns) : line) +
+            "\n");
+}
+
+int output_failure = 0;  // errno of the first failure of stdout, or 0
+
+void note_output(bool is_written) {
+  if (!is_written && output_failure == 0) {
+    output_failure = errno != 0 ? errno : EIO;
+  }
 }
 
 }  // namespace
@@ -64,6 +91,18 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t first
   return lines;
 }
 
+void put_out(std::string_view text) {
+  errno = 0;
+  note_output(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
+}
+
+Expected<void> finish_output() {
+  errno = 0;
+  note_output(std::fflush(stdout) == 0);
+  return output_failure == 0 ? Expected<void>()
+                             : file_error("standard output", "write", output_failure);
+}
+
 void print_error(std::string_view text) { print_message(fmt::format("twin: {}", text)); }
 
 void print_error(const Error& error) { print_error(to_string(error)); }
@@ -76,8 +115,7 @@ Progress::Progress(std::string what, Verbosity verbosity)
 
 Progress::~Progress() {
   if (is_shown_) {
-    fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
+    put_error("\r\033[K");
   }
 }
 
@@ -87,9 +125,8 @@ void Progress::show(double share) {
   }
   const double part = std::clamp(share, 0.0, 1.0);
   const int done = static_cast<int>(part * kBarWidth);
-  fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %\033[K", what_, "", done, "", kBarWidth - done,
-             part * 100.0);
-  std::fflush(stderr);
+  put_error(fmt::format("\r{} [{:=<{}}{:<{}}] {:3.0f} %\033[K", what_, "", done, "",
+                        kBarWidth - done, part * 100.0));
 }
 
 void Progress::rename(std::string what) {

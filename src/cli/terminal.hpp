@@ -1,8 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -23,7 +26,22 @@ enum class Verbosity {
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t first,
                     std::size_t width);
 
-/// Prints "twin: ERROR" on stderr: one line, which is broken at blanks on a terminal only.
+/// Prints text on stdout. A failure is kept for finish_output(); it does not end the command, whose
+/// results are files.
+void put_out(std::string_view text);
+
+/// The same with a format.
+template <class... Values>
+void print_out(fmt::format_string<Values...> text, Values&&... values) {
+  put_out(fmt::format(text, std::forward<Values>(values)...));
+}
+
+/// Hands what was printed to the system, so that it is seen at once.
+/// @returns why something could not be printed, now or before
+Expected<void> finish_output();
+
+/// Prints "twin: ERROR" on stderr: one line, which is broken at blanks on a terminal only. Control
+/// characters, as a file's name may have them, are shown as \x0A.
 void print_error(std::string_view text);
 void print_error(const Error& error);
 

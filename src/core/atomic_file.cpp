@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,17 +11,84 @@
 #include <system_error>
 #include <utility>
 
+#include "core/must_finish.hpp"
+
 namespace twin {
 namespace {
 
 constexpr std::size_t kBufferBytes = 64UL * 1024;
 
-/// Takes the lock of an open file. File systems without locks are no obstacle. @returns 0 or errno
-int lock(int descriptor) {
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
-    return 0;
+constexpr int kTries = 100;  // to lock the file that has a name, while others rename it
+
+tl::unexpected<Error> in_the_way(const std::filesystem::path& file, std::string_view what) {
+  return tl::unexpected<Error>(
+      Error{ErrorCode::kFile, fmt::format("cannot write: {}", what), file.string(), 0, 0});
+}
+
+/// Opens a file for writing, as it is, without waiting for anybody. @returns -1 and errno if not
+int open_as_it_is(const std::filesystem::path& file) {
+  constexpr int flags = O_WRONLY | O_CLOEXEC | O_NONBLOCK;
+  const int descriptor = ::open(file.c_str(), flags | O_CREAT | O_NOFOLLOW, 0666);
+  struct stat status {};
+  if (descriptor < 0 && errno == ELOOP && ::stat(file.c_str(), &status) == 0 &&
+      S_ISCHR(status.st_mode)) {
+    return ::open(file.c_str(), flags);
   }
-  return errno == EWOULDBLOCK ? EWOULDBLOCK : 0;
+  return descriptor;
+}
+
+/// What an open file is that must not be written to; empty for a file or a device.
+std::string_view foreign_kind(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || S_ISREG(status.st_mode) || S_ISCHR(status.st_mode)) {
+    return {};
+  }
+  return S_ISFIFO(status.st_mode) ? "there is a FIFO of this name"
+                                  : "there is something else than a file of this name";
+}
+
+/// Whether a name still means an open file.
+bool is_named(int descriptor, const std::filesystem::path& name) {
+  struct stat open {};
+  struct stat named {};
+  return ::fstat(descriptor, &open) == 0 && ::stat(name.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+/// Opens a temporary file and locks it. File systems without locks are no obstacle.
+Expected<Descriptor> open_and_lock(const std::filesystem::path& temporary) {
+  for (int i = 0; i < kTries; ++i) {
+    Descriptor descriptor(open_as_it_is(temporary));
+    if (descriptor.get() < 0) {
+      const int reason = errno;
+      return reason == ELOOP   ? in_the_way(temporary, "there is a symbolic link of this name")
+             : reason == ENXIO ? in_the_way(temporary, "there is a FIFO of this name")
+                               : file_error(temporary, "open for writing", reason);
+    }
+    if (const std::string_view kind = foreign_kind(descriptor.get()); !kind.empty()) {
+      return in_the_way(temporary, kind);
+    }
+    if (::flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      break;
+    }
+    // Another process may have given this file its final name since it was opened here.
+    if (is_named(descriptor.get(), temporary)) {
+      return descriptor;
+    }
+  }
+  return tl::unexpected<Error>(
+      Error{ErrorCode::kFile, "another run is writing this file", temporary.string(), 0, 0});
+}
+
+/// Waits until the bytes of a file are on the disk. What has no disk behind it needs none.
+/// @returns 0 or errno
+int sync(int descriptor) {
+  while (::fsync(descriptor) != 0) {
+    if (errno != EINTR) {
+      return errno == EINVAL || errno == EROFS ? 0 : errno;
+    }
+  }
+  return 0;
 }
 
 }  // namespace
@@ -33,7 +101,8 @@ tl::unexpected<Error> file_error(const std::filesystem::path& file, std::string_
 }
 
 Expected<AtomicFile> AtomicFile::create(std::filesystem::path target,
-                                        std::filesystem::path temporary, OnAbandon on_abandon) {
+                                        std::filesystem::path temporary, OnAbandon on_abandon,
+                                        Durability durability) {
   std::error_code ignored;
   const auto existing = std::filesystem::status(target, ignored);
   if (std::filesystem::exists(existing) && !std::filesystem::is_regular_file(existing)) {
@@ -41,42 +110,31 @@ Expected<AtomicFile> AtomicFile::create(std::filesystem::path target,
         Error{ErrorCode::kFile, "cannot write: there is something else than a file of this name",
               target.string(), 0, 0});
   }
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    return file_error(temporary, "open for writing", errno);
-  }
-  if (lock(descriptor) != 0) {
-    ::close(descriptor);
-    return tl::unexpected<Error>(
-        Error{ErrorCode::kFile, "another run is writing this file", temporary.string(), 0, 0});
-  }
   AtomicFile file;
+  TWIN_TRY(file.descriptor_, open_and_lock(temporary));
   file.target_ = std::move(target);
   file.temporary_ = std::move(temporary);
   file.on_abandon_ = on_abandon;
-  file.descriptor_ = descriptor;
-  if (::ftruncate(descriptor, 0) != 0 && errno != EINVAL) {
+  file.durability_ = durability;
+  if (on_abandon == OnAbandon::kRemove) {
+    file.listed_.emplace(file.temporary_);
+  }
+  if (::ftruncate(file.descriptor_.get(), 0) != 0 && errno != EINVAL) {
     return file_error(file.temporary_, "write", errno);
   }
   file.buffer_.reserve(2 * kBufferBytes);
   return file;
 }
 
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)),
-      temporary_(std::move(other.temporary_)),
-      on_abandon_(other.on_abandon_),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      failure_(other.failure_),
-      buffer_(std::move(other.buffer_)) {}
-
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   if (this != &other) {
     abandon();
     target_ = std::move(other.target_);
     temporary_ = std::move(other.temporary_);
+    listed_ = std::exchange(other.listed_, std::nullopt);
     on_abandon_ = other.on_abandon_;
-    descriptor_ = std::exchange(other.descriptor_, -1);
+    durability_ = other.durability_;
+    descriptor_ = std::move(other.descriptor_);
     failure_ = other.failure_;
     buffer_ = std::move(other.buffer_);
   }
@@ -96,7 +154,7 @@ Expected<void> AtomicFile::write(std::string_view bytes) {
 Expected<void> AtomicFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty() && failure_ == 0) {
-    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    const ssize_t written = ::write(descriptor_.get(), rest.data(), rest.size());
     if (written > 0) {
       rest.remove_prefix(static_cast<std::size_t>(written));
     } else if (written == 0 || errno != EINTR) {
@@ -111,21 +169,32 @@ Expected<void> AtomicFile::flush() {
 }
 
 Expected<void> AtomicFile::commit() {
-  if (descriptor_ < 0) {
+  if (descriptor_.get() < 0) {
     return file_error(target_, "write", failure_ != 0 ? failure_ : EBADF);
   }
+  const MustFinish finish;
   if (auto flushed = flush(); !flushed) {
     abandon();
     return flushed;
   }
+  if (durability_ == Durability::kSynced) {
+    failure_ = sync(descriptor_.get());
+  }
   // Renamed before it is closed, that is while it is still locked: nobody else can empty it in
   // between.
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    const int reason = errno;
+  if (failure_ == 0 && std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    failure_ = errno;
+  }
+  if (failure_ != 0) {
+    const int reason = failure_;
     abandon();
     return file_error(target_, "write", reason);
   }
-  if (::close(std::exchange(descriptor_, -1)) != 0) {
+  listed_.reset();
+  if (durability_ == Durability::kSynced) {
+    sync_folder(target_.parent_path());
+  }
+  if (::close(descriptor_.release()) != 0) {
     failure_ = errno;
     return file_error(target_, "write", failure_);
   }
@@ -133,7 +202,7 @@ Expected<void> AtomicFile::commit() {
 }
 
 void AtomicFile::abandon() noexcept {
-  if (descriptor_ < 0) {
+  if (descriptor_.get() < 0) {
     return;
   }
   if (on_abandon_ == OnAbandon::kRemove) {
@@ -141,15 +210,26 @@ void AtomicFile::abandon() noexcept {
   } else if (failure_ == 0) {
     static_cast<void>(flush());
   }
-  ::close(std::exchange(descriptor_, -1));
+  listed_.reset();
+  descriptor_ = Descriptor();
 }
 
-Expected<void> write_whole_file(const std::filesystem::path& file, std::string_view content) {
-  std::filesystem::path temporary = file;
-  temporary += ".tmp";
-  return AtomicFile::create(file, std::move(temporary)).and_then([&](AtomicFile&& atomic) {
-    return atomic.write(content).and_then([&] { return atomic.commit(); });
-  });
+std::filesystem::path temporary_of(std::filesystem::path file) { return file += ".tmp"; }
+
+Expected<void> write_whole_file(const std::filesystem::path& file, std::string_view content,
+                                Durability durability) {
+  return AtomicFile::create(file, temporary_of(file), OnAbandon::kRemove, durability)
+      .and_then([&](AtomicFile&& atomic) {
+        return atomic.write(content).and_then([&] { return atomic.commit(); });
+      });
+}
+
+void sync_folder(const std::filesystem::path& folder) noexcept {
+  const Descriptor opened(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.get() >= 0) {
+    static_cast<void>(sync(opened.get()));
+  }
 }
 
 }  // namespace twin

@@ -23,6 +23,9 @@ namespace {
 constexpr std::size_t kMostClients = 8;
 constexpr std::size_t kLongestLine = 256;  // [bytes]
 
+// Until it is tried again to take a connection for which there was no descriptor.
+constexpr auto kNoDescriptor = std::chrono::milliseconds(50);
+
 tl::unexpected<Error> refused(const std::filesystem::path& path, const std::string& why) {
   return tl::unexpected(Error{ErrorCode::kFile, why, path.string(), 0, 0});
 }
@@ -165,7 +168,13 @@ void ControlSocket::serve(const std::vector<pollfd>& polled) {
 void ControlSocket::welcome() {
   auto connection = std::make_unique<Descriptor>(
       ::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (connection->get() < 0 || !is_of_this_user(connection->get())) {
+  if (connection->get() < 0) {
+    if (errno == EMFILE || errno == ENFILE) {  // whoever knocks goes on knocking
+      std::this_thread::sleep_for(kNoDescriptor);
+    }
+    return;
+  }
+  if (!is_of_this_user(connection->get())) {
     return;
   }
   if (clients_.size() >= kMostClients) {

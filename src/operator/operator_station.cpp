@@ -1,21 +1,28 @@
 #include "operator/operator_station.hpp"
 
-#include <fmt/core.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <utility>
 #include <vector>
 
+#include "core/atomic_file.hpp"
 #include "operator/commands.hpp"
 
 namespace twin::operator_station {
 namespace {
 
 constexpr int kShowEvery = 200;  // [ms]
+
+/// Writes on the terminal, which may be gone by now; the run goes on without it.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
 
 }  // namespace
 
@@ -27,17 +34,22 @@ Expected<std::unique_ptr<OperatorStation>> OperatorStation::open(const Options& 
                return answer(line, panel);
              }));
   }
-  return std::unique_ptr<OperatorStation>(new OperatorStation(options, panel, std::move(socket)));
+  Descriptor wake(::eventfd(0, EFD_CLOEXEC));
+  if (wake.get() < 0) {
+    return file_error("the operator's station", "start", errno);
+  }
+  return std::unique_ptr<OperatorStation>(
+      new OperatorStation(options, panel, std::move(socket), std::move(wake)));
 }
 
 OperatorStation::OperatorStation(const Options& options, runtime::OperatorPanel& panel,
-                                 std::unique_ptr<ControlSocket> socket)
+                                 std::unique_ptr<ControlSocket> socket, Descriptor wake)
     : panel_(panel),
       socket_(std::move(socket)),
       terminal_(options.has_keys ? std::make_unique<RawTerminal>() : nullptr),
       has_keys_(terminal_ != nullptr && terminal_->is_raw()),
       shows_status_(has_keys_ && options.shows_status && isatty(STDERR_FILENO) == 1),
-      wake_(::eventfd(0, EFD_CLOEXEC)),
+      wake_(std::move(wake)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 OperatorStation::~OperatorStation() {
@@ -46,8 +58,7 @@ OperatorStation::~OperatorStation() {
   [[maybe_unused]] const ssize_t written = ::write(wake_.get(), &one, sizeof(one));
   thread_.join();
   if (shows_status_) {
-    fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
+    show("\r\033[K");
   }
 }
 
@@ -72,8 +83,7 @@ void OperatorStation::work(const std::stop_token& stop) {
       socket_->serve(polled);
     }
     if (shows_status_) {
-      fmt::print(stderr, "\r{}\033[K", status_line(panel_));
-      std::fflush(stderr);
+      show("\r" + status_line(panel_) + "\033[K");
     }
   }
 }

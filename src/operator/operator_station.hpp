@@ -33,7 +33,7 @@ class OperatorStation {
 
  private:
   OperatorStation(const Options& options, runtime::OperatorPanel& panel,
-                  std::unique_ptr<ControlSocket> socket);
+                  std::unique_ptr<ControlSocket> socket, Descriptor wake);
   void work(const std::stop_token& stop);
   void read_keys();
 

@@ -66,17 +66,25 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   }
 }
 
-/// Reads on to the program's end, or as long as it is asked to, and checks every block.
+/// @returns an error where the caller wants to end
+Expected<void> ask(const std::atomic<bool>* stop) {
+  if (stop != nullptr && stop->load(std::memory_order_relaxed)) {
+    return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
+  }
+  return {};
+}
+
+/// Reads on to the program's end and checks every block.
 Expected<void> check_rest(gcode::Reader& reader, TravelCheck& check,
-                          const std::function<bool()>& goes_on) {
-  while (goes_on()) {
+                          const std::atomic<bool>* stop) {
+  for (;;) {
+    TWIN_CHECK(ask(stop));
     TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
     if (!block) {
-      break;
+      return {};
     }
     TWIN_CHECK(check.add(*block));
   }
-  return {};
 }
 
 }  // namespace
@@ -112,10 +120,11 @@ Expected<void> TravelCheck::add(const gcode::Block& block) {
 }
 
 Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
-                                       const gcode::ReaderOptions& options, const Limits& limits) {
+                                       const gcode::ReaderOptions& options, const Limits& limits,
+                                       const std::atomic<bool>* stop) {
   gcode::Reader reader(program, options);
   TravelCheck check(program.file().string(), options.start, limits);
-  TWIN_CHECK(check_rest(reader, check, [] { return true; }));
+  TWIN_CHECK(check_rest(reader, check, stop));
   ProgramFigures figures = check.figures();
   figures.lines = reader.line();
   return figures;
@@ -129,20 +138,17 @@ Expected<Estimate> estimate_program(const gcode::ProgramText& program,
   gcode::Reader reader(program, options);
   TravelCheck check(program.file().string(), options.start, machine.limits);
   Estimate estimate;
-  const auto goes_on = [stop] { return stop == nullptr || !stop->load(); };
   const auto sink = [&](feedrate::PlannedSegment&& planned) {
     estimate.is_whole = estimate.is_whole && (!listen || listen(std::move(planned)));
-    return estimate.is_whole && goes_on();
+    return estimate.is_whole && ask(stop);
   };
   TWIN_TRY(estimate.plan, plan_program(reader, machine, sink, [&](const gcode::Block& block) {
-             return check.add(block);
+             return ask(stop).and_then([&] { return check.add(block); });
            }));
   if (!estimate.is_whole) {
-    TWIN_CHECK(check_rest(reader, check, goes_on));
+    TWIN_CHECK(check_rest(reader, check, stop));
   }
-  if (!goes_on()) {
-    return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
-  }
+  TWIN_CHECK(ask(stop));
   estimate.program = check.figures();
   estimate.program.lines = reader.line();
   return estimate;

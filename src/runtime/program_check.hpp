@@ -43,9 +43,11 @@ class TravelCheck {
 
 /// Reads a program to its end and holds it against the machine's travel.
 ///
+/// @param stop  ends it with kInterrupted; may be null
 /// @returns the first error of the program, or the first block that leaves the travel
 Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
-                                       const gcode::ReaderOptions& options, const Limits& limits);
+                                       const gcode::ReaderOptions& options, const Limits& limits,
+                                       const std::atomic<bool>* stop = nullptr);
 
 /// What is known of a program before it runs.
 struct Estimate {

@@ -28,7 +28,7 @@ Recorder::Recorder(const Options& options, BlockSource blocks)
 Expected<void> Recorder::begin() {
   std::vector<TraceSink*> sinks;
   if (!options_.directory.empty()) {
-    csv_ = std::make_unique<results::CsvTrace>(options_.directory);
+    csv_ = std::make_unique<results::CsvTrace>(options_.directory, options_.durability);
     sinks.push_back(csv_.get());
   }
   sinks.insert(sinks.end(), options_.sinks.begin(), options_.sinks.end());

@@ -35,9 +35,10 @@ class Recorder {
     std::filesystem::path directory;  ///< of the results, which exists; empty: no file is written
     std::vector<TraceSink*> sinks;    ///< get the rows besides trace.csv
     Limits limits;
-    double period = 0.001;       ///< [s]
-    bool has_machine = true;     ///< else only set points are recorded
-    bool is_wall_clock = false;  ///< samples have the wall clock's figures
+    double period = 0.001;                        ///< [s]
+    bool has_machine = true;                      ///< else only set points are recorded
+    bool is_wall_clock = false;                   ///< samples have the wall clock's figures
+    Durability durability = Durability::kSynced;  ///< of the trace
   };
 
   /// @param blocks  of the program

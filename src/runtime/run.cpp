@@ -12,6 +12,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/atomic_file.hpp"
+#include "core/must_finish.hpp"
 #include "core/this_program.hpp"
 #include "hal/active_machine.hpp"
 #include "runtime/program_check.hpp"
@@ -261,6 +262,7 @@ void Run::run_threads() {
 }
 
 Expected<RunResult> Run::execute() {
+  const MustFinish finish;  // brakes on the path when it is to stop, and keeps what was recorded
   const auto start = std::chrono::steady_clock::now();
   run_threads();
   const double wall_time =
@@ -289,7 +291,7 @@ Expected<Outlook> look_at(const RunRequest& request) {
   const gcode::ReaderOptions options = reader_options(request);
   if (request.hal == nullptr && request.overrides.empty()) {
     TWIN_TRY(const ProgramFigures program,
-             check_program(request.program, options, request.machine.limits));
+             check_program(request.program, options, request.machine.limits, request.stop));
     return Outlook{.program = program, .plan = std::nullopt, .segments = {}};
   }
   Outlook outlook{.program = {}, .plan = std::nullopt, .segments = {}};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/vec.hpp"
 #include "gcode/program_text.hpp"
@@ -32,9 +33,10 @@ struct RunTask {
 
 /// Where the results of a run go.
 struct RunOutput {
-  std::filesystem::path directory;  ///< made when missing; empty: no file is written
-  std::vector<TraceSink*> sinks;    ///< get the rows of the trace, besides the files
-  std::string command;              ///< command line or the caller's own words, for the summary
+  std::filesystem::path directory;              ///< made when missing; empty: no file is written
+  std::vector<TraceSink*> sinks;                ///< get the rows of the trace, besides the files
+  Durability durability = Durability::kSynced;  ///< of the trace
+  std::string command;  ///< command line or the caller's own words, for the summary
 };
 
 /// How the motion is carried out.

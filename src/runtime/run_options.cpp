@@ -43,7 +43,8 @@ Recorder::Options recorder_options(const RunRequest& request) {
           .limits = request.machine.limits,
           .period = request.machine.period,
           .has_machine = request.hal != nullptr,
-          .is_wall_clock = request.is_wall_clock};
+          .is_wall_clock = request.is_wall_clock,
+          .durability = request.durability};
 }
 
 }  // namespace twin::runtime

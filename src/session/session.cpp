@@ -55,8 +55,8 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.estimated = attendance.estimated;
   TWIN_TRY(runtime::RunResult result, runtime::run_program(run));
   if (request_.has_bound && !result.failure) {
-    TWIN_TRY(result.summary.time_bound,
-             runtime::time_bound(request_.program, request_.machine, request_.feedrate));
+    TWIN_TRY(result.summary.time_bound, runtime::time_bound(request_.program, request_.machine,
+                                                            request_.feedrate, attendance.stop));
   }
   if (request_.files == Files::kNone) {
     return result;

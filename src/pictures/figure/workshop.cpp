@@ -1,8 +1,12 @@
 #include "pictures/figure/workshop.hpp"
 
+#include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
 
 #include <array>
+#include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include "core/atomic_file.hpp"
@@ -17,6 +21,32 @@ tl::unexpected<Error> folder_error(const fs::path& folder, const std::error_code
       Error{ErrorCode::kFile, "cannot make this folder: " + code.message(), folder.string(), 0, 0});
 }
 
+constexpr std::string_view kUnfinished = ".unfinished_";
+
+/// Opens a folder and locks it. @returns a negative descriptor if another one has the lock
+Descriptor lock_folder(const fs::path& folder, int waiting) {
+  Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  if (opened.get() >= 0 && ::flock(opened.get(), LOCK_EX | waiting) != 0 && errno == EWOULDBLOCK) {
+    return Descriptor();
+  }
+  return opened;
+}
+
+/// Removes the workshops of programs that were killed: those that nobody has locked.
+void remove_abandoned(const fs::path& results) {
+  std::error_code ignored;
+  std::vector<fs::path> abandoned;
+  for (const fs::directory_entry& entry : fs::directory_iterator(results, ignored)) {
+    if (entry.path().filename().string().starts_with(kUnfinished) &&
+        lock_folder(entry.path(), LOCK_NB).get() >= 0) {
+      abandoned.push_back(entry.path());
+    }
+  }
+  for (const fs::path& folder : abandoned) {
+    fs::remove_all(folder, ignored);
+  }
+}
+
 }  // namespace
 
 Expected<Workshop> Workshop::open(const fs::path& results) {
@@ -25,11 +55,14 @@ Expected<Workshop> Workshop::open(const fs::path& results) {
   if (code) {
     return folder_error(results, code);
   }
-  std::string folder = (results / ".unfinished_XXXXXX").string();
+  // Nobody removes a workshop between its making and its locking, because that takes this lock too.
+  const Descriptor alone = lock_folder(results, 0);
+  remove_abandoned(results);
+  std::string folder = (results / (std::string(kUnfinished) + "XXXXXX")).string();
   if (mkdtemp(folder.data()) == nullptr) {
     return file_error(results, "write into this folder", errno);
   }
-  return Workshop(results, folder);
+  return Workshop(results, folder, lock_folder(folder, LOCK_NB));
 }
 
 Workshop::~Workshop() {
@@ -66,6 +99,7 @@ Expected<void> Workshop::deliver(std::span<const std::string> names) const {
   for (const std::string& name : names) {
     TWIN_CHECK(deliver_one(name));
   }
+  sync_folder(results_);
   return {};
 }
 

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
+#include "core/temporary_name.hpp"
 
 namespace twin::pictures {
 
@@ -16,17 +18,14 @@ using NamedText = std::pair<const char*, std::string>;
 /// Whether a study draws its pictures.
 enum class Drawing { kDrawn, kLeftOut };
 
-/// A folder inside the results' folder where everything is made first; gone at the end, whatever
-/// happens.
+/// A folder inside the results' folder where everything is made first. It is gone at the end; if the
+/// program is killed, the next workshop in that place removes it.
 class Workshop {
  public:
   /// Makes the folder of the results, when missing, and the workshop in it.
   static Expected<Workshop> open(const std::filesystem::path& results);
 
-  Workshop(Workshop&& other) noexcept
-      : results_(other.results_), folder_(std::move(other.folder_)) {
-    other.folder_.clear();
-  }
+  Workshop(Workshop&& other) noexcept = default;
   Workshop& operator=(Workshop&&) = delete;
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
@@ -54,11 +53,16 @@ class Workshop {
 
  private:
   Expected<void> deliver_one(const std::string& name) const;
-  Workshop(std::filesystem::path results, std::filesystem::path folder)
-      : results_(std::move(results)), folder_(std::move(folder)) {}
+  Workshop(std::filesystem::path results, std::filesystem::path folder, Descriptor lock)
+      : results_(std::move(results)),
+        folder_(std::move(folder)),
+        listed_(folder_),
+        lock_(std::move(lock)) {}
 
   std::filesystem::path results_;
   std::filesystem::path folder_;
+  TemporaryName listed_;
+  Descriptor lock_;  // tells other programs that somebody works in the folder
 };
 
 }  // namespace twin::pictures

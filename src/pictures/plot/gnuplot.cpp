@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +10,9 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -17,6 +20,8 @@
 #include <utility>
 
 #include "core/atomic_file.hpp"
+#include "core/descriptor.hpp"
+#include "pictures/figure/workshop.hpp"
 #include "results/trace/csv_file.hpp"
 
 namespace twin::pictures {
@@ -40,33 +45,68 @@ tl::unexpected<Error> start_error(int reason) {
 /// A child process whose stderr ends in a pipe.
 struct Child {
   pid_t pid = -1;
-  int complaints = -1;
+  Descriptor complaints;
 };
 
-Expected<Child> start(const std::filesystem::path& directory, const std::string& script) {
-  std::array<int, 2> pipe{};
-  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+/// Becomes gnuplot; in the child, between fork and exec. It is a process group of its own, so that a
+/// signal to the group of this program leaves it to this program, with which it dies in any case.
+///
+/// @param parent      that it dies with
+/// @param complaints  its stderr
+/// @param refusal     gets errno when gnuplot cannot be started
+[[noreturn]] void become_gnuplot(const char* directory, char* const* arguments, pid_t parent,
+                                 int complaints, int refusal) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) {
+    ::_exit(1);  // the parent was gone before that was in force
+  }
+  for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(number, SIG_DFL);
+  }
+  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  if (nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 && ::dup2(nothing, STDOUT_FILENO) >= 0 &&
+      ::dup2(complaints, STDERR_FILENO) >= 0 && ::chdir(directory) == 0) {
+    ::execvp(arguments[0], arguments);
+  }
+  const int reason = errno;
+  [[maybe_unused]] const ssize_t written = ::write(refusal, &reason, sizeof(reason));
+  ::_exit(1);
+}
+
+/// A pipe: read end, write end.
+Expected<std::pair<Descriptor, Descriptor>> make_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     return start_error(errno);
   }
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, pipe[1], STDERR_FILENO);
+  return std::pair(Descriptor(ends[0]), Descriptor(ends[1]));
+}
+
+Expected<Child> start(const std::filesystem::path& directory, const std::string& script) {
+  TWIN_TRY(auto complaints, make_pipe());
+  TWIN_TRY(auto refusal, make_pipe());
   std::string program = "gnuplot";
   std::string argument = script;
-  const std::array<char*, 3> argv{program.data(), argument.data(), nullptr};
+  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  const pid_t parent = ::getpid();
   Child child;
-  const int status =
-      ::posix_spawnp(&child.pid, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(pipe[1]);
-  if (status != 0) {
-    ::close(pipe[0]);
-    return start_error(status);
+  child.pid = ::fork();
+  if (child.pid == 0) {
+    become_gnuplot(directory.c_str(), arguments.data(), parent, complaints.second.get(),
+                   refusal.second.get());
   }
-  child.complaints = pipe[0];
+  if (child.pid < 0) {
+    return start_error(errno);
+  }
+  complaints.second = Descriptor();
+  refusal.second = Descriptor();
+  int reason = 0;
+  if (::read(refusal.first.get(), &reason, sizeof(reason)) == sizeof(reason)) {
+    ::waitpid(child.pid, nullptr, 0);
+    return start_error(reason);
+  }
+  child.complaints = std::move(complaints.first);
   return child;
 }
 
@@ -109,8 +149,7 @@ std::string telling_line(const std::string& text) {
 /// @returns an Error when gnuplot is missing or fails, with the first line of its complaint
 Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::string& script) {
   TWIN_TRY(auto child, start(directory, script));
-  const std::string complaints = listen(child.complaints);
-  ::close(child.complaints);
+  const std::string complaints = listen(child.complaints.get());
   int status = 0;
   while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
   }
@@ -120,7 +159,16 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::st
   const std::string line = telling_line(complaints);
   return tl::unexpected<Error>(Error{ErrorCode::kFile,
                                      "gnuplot failed: " + (line.empty() ? "no message" : line),
-                                     (directory / script).string(), 0, 0});
+                                     (directory / script).lexically_normal().string(), 0, 0});
+}
+
+/// The same in a thread, which nothing may escape.
+Expected<void> run_guarded(const std::filesystem::path& directory, const std::string& script) {
+  try {
+    return run_gnuplot(directory, script);
+  } catch (const std::exception& error) {
+    return fail(ErrorCode::kFile, std::string("gnuplot cannot be run: ") + error.what());
+  }
 }
 
 /// Runs several scripts, two at a time. @returns the first error, after all have ended
@@ -131,7 +179,7 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory,
   Expected<void> result;
   const auto work = [&] {
     for (std::size_t i = next++; i < scripts.size(); i = next++) {
-      auto done = run_gnuplot(directory, scripts[i]);
+      auto done = run_guarded(directory, scripts[i]);
       const std::lock_guard lock(mutex);
       if (!done && result) {
         result = std::move(done);
@@ -144,16 +192,47 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory,
   return result;
 }
 
-/// A picture that gnuplot left out although it said nothing, as on a full disk.
-Expected<void> check_pictures(const std::vector<fs::path>& pictures) {
-  for (const fs::path& picture : pictures) {
+/// Whether a picture ends as one of its kind does.
+bool has_its_end(const fs::path& picture) {
+  const std::string_view end =
+      picture.extension() == ".png" ? std::string_view("IEND\xAE\x42\x60\x82") : "</svg>";
+  constexpr std::streamoff most = 64;
+  std::ifstream in(picture, std::ios::binary | std::ios::ate);
+  in.seekg(-std::min<std::streamoff>(most, in.tellg()), std::ios::end);
+  const std::string last{std::istreambuf_iterator<char>(in), {}};
+  return last.find(end) != std::string::npos;
+}
+
+/// Names of the pictures that a script makes.
+std::array<std::string, 2> pictures_of(const Script& script) {
+  return {script.name + ".png", script.name + ".svg"};
+}
+
+/// A picture that gnuplot left out although it said nothing, or cut short, as on a full disk.
+Expected<void> check_pictures(const fs::path& folder, std::span<const std::string> names) {
+  for (const std::string& name : names) {
     std::error_code error;
-    if (fs::file_size(picture, error) == 0 || error) {
-      return tl::unexpected<Error>(
-          Error{ErrorCode::kFile, "gnuplot did not write this picture", picture.string(), 0, 0});
+    if (fs::file_size(folder / name, error) == 0 || error || !has_its_end(folder / name)) {
+      return tl::unexpected<Error>(Error{ErrorCode::kFile, "gnuplot did not write this picture",
+                                         (folder / name).string(), 0, 0});
     }
   }
   return {};
+}
+
+/// Shows the data of a folder under the same names in a folder inside it, where scripts read them.
+Expected<void> link_data(const fs::path& folder, const fs::path& inside) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".csv") {
+      fs::create_symlink(fs::path("..") / entry.path().filename(), inside / entry.path().filename(),
+                         error);
+    }
+    if (error) {
+      break;
+    }
+  }
+  return error ? file_error(folder, "draw in this folder", error.value()) : Expected<void>();
 }
 
 void remove_all(const std::vector<fs::path>& files) {
@@ -167,8 +246,9 @@ void remove_all(const std::vector<fs::path>& files) {
 
 Expected<void> write_table(const std::filesystem::path& folder, const std::string& name,
                            std::span<const std::string_view> columns, const results::Table& table) {
-  TWIN_TRY(results::CsvFile file, results::CsvFile::create(folder / (name + ".csv"),
-                                                           folder / (name + ".csv.tmp"), columns));
+  TWIN_TRY(results::CsvFile file,
+           results::CsvFile::create(folder / (name + ".csv"), folder / (name + ".csv.tmp"), columns,
+                                    OnAbandon::kRemove, Durability::kCached));
   for (std::size_t i = 0; i < table.rows(); ++i) {
     TWIN_CHECK(file.write(table.row(i)));
   }
@@ -176,20 +256,23 @@ Expected<void> write_table(const std::filesystem::path& folder, const std::strin
 }
 
 Expected<std::vector<fs::path>> draw(const fs::path& folder, std::span<const Script> scripts) {
-  std::vector<fs::path> pictures;
+  TWIN_TRY(const Workshop workshop, Workshop::open(folder));
   std::vector<std::string> names;
+  std::vector<fs::path> pictures;
+  std::vector<std::string> commands;
   for (const Script& script : scripts) {
-    names.push_back(script.name + ".gp");
-    pictures.push_back(folder / (script.name + ".png"));
-    pictures.push_back(folder / (script.name + ".svg"));
-    TWIN_CHECK(write_whole_file(folder / names.back(), script.text));
+    TWIN_CHECK(write_whole_file(folder / (script.name + ".gp"), script.text, Durability::kCached));
+    commands.push_back("../" + script.name + ".gp");
+    for (const std::string& name : pictures_of(script)) {
+      names.push_back(name);
+      pictures.push_back(folder / name);
+    }
   }
   remove_all(pictures);  // no older picture may pass for one of this run
-  auto drawn = run_gnuplot(folder, names).and_then([&] { return check_pictures(pictures); });
-  if (!drawn) {
-    remove_all(pictures);
-    return tl::unexpected(std::move(drawn.error()));
-  }
+  TWIN_CHECK(link_data(folder, workshop.folder()));
+  TWIN_CHECK(run_gnuplot(workshop.folder(), commands));
+  TWIN_CHECK(check_pictures(workshop.folder(), names));
+  TWIN_CHECK(workshop.deliver(names));
   return pictures;
 }
 

@@ -20,7 +20,9 @@ Expected<void> write_table(const std::filesystem::path& folder, const std::strin
 /// Writes each script as NAME.gp into a folder and lets gnuplot run it there, two at a time; a
 /// script makes NAME.png and NAME.svg.
 ///
-/// Gnuplot is started directly, without a shell, so that no name needs quoting.
+/// Gnuplot is started directly, without a shell, so that no name needs quoting, and is killed when
+/// this program ends. It draws in a folder of its own; pictures get their place when all of them are
+/// whole.
 ///
 /// @returns the pictures; after an error there are none, an older run's neither. When gnuplot is
 ///          missing or fails, the Error has the first line of its complaint

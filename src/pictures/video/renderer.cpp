@@ -51,6 +51,15 @@ class EncoderThread {
 
  private:
   void work() {
+    try {
+      encode();
+    } catch (const std::exception& error) {
+      result_ = fail(ErrorCode::kFile, std::string("the video cannot be made: ") + error.what());
+      queue_.close();
+    }
+  }
+
+  void encode() {
     while (auto shot = queue_.pop()) {
       overlay_.draw(shot->frame, shot->readout);
       result_ = encoder_.push(shot->frame);

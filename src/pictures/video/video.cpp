@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/atomic_file.hpp"
+#include "core/temporary_name.hpp"
 #include "core/this_program.hpp"
 #include "pictures/video/renderer.hpp"
 
@@ -61,6 +63,7 @@ std::vector<fs::path> video_module_places() {
 
 Expected<VideoReport> write_video_with(const fs::path& module, const VideoInput& input) {
   TWIN_TRY(const RenderVideo render, load_module(module));
+  const TemporaryName unfinished(temporary_of(input.output));  // the module has a list of its own
   Expected<VideoReport> report;
   render(&input, &report);
   return report;

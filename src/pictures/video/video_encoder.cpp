@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
-#include <cstdio>
 #include <utility>
 
 #include "core/atomic_file.hpp"
@@ -61,11 +59,21 @@ av::Owner<AVFrame> make_frame(AVPixelFormat format, int width, int height) {
   return av_frame_get_buffer(frame.get(), 0) < 0 ? nullptr : std::move(frame);
 }
 
+/// An error of the temporary file, told of the file that the user knows.
+Error about(const std::filesystem::path& output, Error error) {
+  constexpr std::string_view kOpen = "cannot open for writing";
+  if (error.message.starts_with(kOpen)) {
+    error.message.replace(0, kOpen.size(), "cannot write");
+  }
+  error.file = output.string();
+  return error;
+}
+
 }  // namespace
 
 struct VideoEncoder::Parts {
-  std::filesystem::path output;
-  std::filesystem::path temporary;
+  // Locked, so that no other program writes it; FFmpeg opens it a second time, by its name.
+  AtomicFile file;
   std::string name;  // of the output, for messages
   av::Owner<AVFormatContext> format;
   av::Owner<AVCodecContext> codec;
@@ -74,18 +82,13 @@ struct VideoEncoder::Parts {
   av::Owner<AVFrame> frame;
   av::Owner<AVPacket> packet;
   AVStream* stream = nullptr;  // of format
-  bool is_finished = false;
 
-  Parts() = default;
+  explicit Parts(AtomicFile&& locked) : file(std::move(locked)), name(file.target().string()) {}
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
   ~Parts() {
     if (format && format->pb != nullptr) {
       avio_closep(&format->pb);
-    }
-    if (!is_finished && !temporary.empty()) {
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
     }
   }
 
@@ -107,11 +110,11 @@ Expected<VideoEncoder> VideoEncoder::open(const std::filesystem::path& output, i
                     "and at least 1 frame/s",
                     width, height, frames_per_second));
   }
-  auto parts = std::make_unique<Parts>();
-  parts->output = output;
-  parts->name = output.string();
-  parts->temporary = output;
-  parts->temporary += ".tmp";
+  auto file = AtomicFile::create(output, temporary_of(output));
+  if (!file) {
+    return tl::unexpected(about(output, std::move(file).error()));
+  }
+  auto parts = std::make_unique<Parts>(*std::move(file));
   if (auto started = parts->start(width, height, frames_per_second); !started) {
     return tl::unexpected(std::move(started.error()));
   }
@@ -121,7 +124,8 @@ Expected<VideoEncoder> VideoEncoder::open(const std::filesystem::path& output, i
 Expected<void> VideoEncoder::Parts::start(int width, int height, int frames_per_second) {
   av_log_set_level(AV_LOG_QUIET);  // what fails comes back as a code
   AVFormatContext* made = nullptr;
-  const std::string url = "file:" + temporary.string();  // a colon in the name is no protocol
+  const std::string url =
+      "file:" + file.temporary().string();  // a colon in the name is no protocol
   int status = avformat_alloc_output_context2(&made, nullptr, "mp4", url.c_str());
   format.reset(made);
   if (status < 0) {
@@ -202,11 +206,7 @@ Expected<void> VideoEncoder::finish() {
   if (const int status = avio_closep(&p.format->pb); status < 0) {
     return av::error(p.name, "write", status);
   }
-  if (std::rename(p.temporary.c_str(), p.output.c_str()) != 0) {
-    return file_error(p.output, "write", errno);
-  }
-  p.is_finished = true;
-  return {};
+  return p.file.commit();
 }
 
 }  // namespace twin::pictures::video

@@ -35,14 +35,15 @@ std::string_view Row::finish() noexcept {
 }
 
 Expected<CsvFile> CsvFile::create(std::filesystem::path target, std::filesystem::path temporary,
-                                  std::span<const std::string_view> columns, OnAbandon on_abandon) {
+                                  std::span<const std::string_view> columns, OnAbandon on_abandon,
+                                  Durability durability) {
   std::string header;
   for (const std::string_view column : columns) {
     header.append(column).push_back(',');
   }
   header.back() = '\n';
   TWIN_TRY(AtomicFile file,
-           AtomicFile::create(std::move(target), std::move(temporary), on_abandon));
+           AtomicFile::create(std::move(target), std::move(temporary), on_abandon, durability));
   TWIN_CHECK(file.write(header));
   return CsvFile(std::move(file));
 }

@@ -35,7 +35,8 @@ class CsvFile {
   /// Opens the temporary file and writes the header line.
   static Expected<CsvFile> create(std::filesystem::path target, std::filesystem::path temporary,
                                   std::span<const std::string_view> columns,
-                                  OnAbandon on_abandon = OnAbandon::kRemove);
+                                  OnAbandon on_abandon = OnAbandon::kRemove,
+                                  Durability durability = Durability::kSynced);
 
   Expected<void> write(Row& row) { return file_.write(row.finish()); }
   Expected<void> write(std::span<const double> values);  ///< at most Row::kMostFields

@@ -14,7 +14,7 @@ std::optional<Error> CsvTrace::begin(const TraceHeader& header) {
     kinds_.push_back(column.kind);
   }
   auto file = CsvFile::create(directory_ / kTraceName, directory_ / kPartialTraceName, names,
-                              OnAbandon::kKeep);
+                              OnAbandon::kKeep, durability_);
   if (!file) {
     return std::move(file).error();
   }

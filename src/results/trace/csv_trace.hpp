@@ -17,7 +17,8 @@ namespace twin::results {
 class CsvTrace final : public TraceSink {
  public:
   /// @param directory  folder of the results, which exists when the run begins
-  explicit CsvTrace(std::filesystem::path directory) : directory_(std::move(directory)) {}
+  explicit CsvTrace(std::filesystem::path directory, Durability durability = Durability::kSynced)
+      : directory_(std::move(directory)), durability_(durability) {}
 
   std::optional<Error> begin(const TraceHeader& header) override;
   std::optional<Error> rows(std::span<const double> values) override;
@@ -26,6 +27,7 @@ class CsvTrace final : public TraceSink {
 
  private:
   std::filesystem::path directory_;
+  Durability durability_;
   std::optional<CsvFile> file_;
   std::vector<TraceColumn::Kind> kinds_;
   Row row_;

@@ -13,7 +13,8 @@ Expected<LimitWriter> LimitWriter::create(const std::filesystem::path& directory
   const std::filesystem::path target = directory / kLimitName;
   std::filesystem::path temporary = target;
   temporary += ".tmp";
-  TWIN_TRY(CsvFile file, CsvFile::create(target, std::move(temporary), columns));
+  TWIN_TRY(CsvFile file, CsvFile::create(target, std::move(temporary), columns, OnAbandon::kRemove,
+                                         Durability::kCached));
   return LimitWriter(std::move(file));
 }
 

@@ -62,14 +62,14 @@ Expected<HomingStop> make_homing_move(const HomingMove& wanted, const HomeRun& r
   move.command = run.command;
   move.until = watch_for(wanted);
   TWIN_TRY(const runtime::RunResult result, session::make_axis_move(move, run.machine, hal, stop));
+  if (result.failure && !met_switch(result, wanted)) {
+    return tl::unexpected(*result.failure);
+  }
   const auto axis = static_cast<Eigen::Index>(wanted.axis);
   HomingStop end{result.rest_at[axis] + hal.come_to_rest()[wanted.axis], {}};
   if (met_switch(result, wanted)) {
     end.met_at = end.position;
     return end;
-  }
-  if (result.failure) {
-    return tl::unexpected(*result.failure);
   }
   if (result.met_at) {
     end.met_at = (*result.met_at)[axis];

@@ -32,6 +32,10 @@ struct Search {
     }
     ++best.evaluations;
     const double cost = objective(x);
+    if (is_stopped()) {  // perhaps in the middle of it
+      best.was_stopped = true;
+      return kWorst;
+    }
     const double known = std::isfinite(cost) ? std::min(cost, kWorst) : kWorst;
     if (best.x.empty() || known < best.cost) {
       best.x = x;

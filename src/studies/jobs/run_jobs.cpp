@@ -25,6 +25,7 @@ Expected<results::Summary> run_job(const Job& job, const Options& options) {
   request.hal = hal.get();
   request.feedrate = job.feedrate;
   request.directory = job.directory;
+  request.durability = Durability::kCached;  // studies read the trace at once and write their own
   request.stop = options.stop;
   auto result = runtime::run_program(request);
   if (!job.keeps_results) {
@@ -40,6 +41,15 @@ Expected<results::Summary> run_job(const Job& job, const Options& options) {
   return std::move(result->summary);
 }
 
+/// The same in a thread, which nothing may escape.
+Expected<results::Summary> run_guarded(const Job& job, const Options& options) {
+  try {
+    return run_job(job, options);
+  } catch (const std::exception& error) {
+    return tl::unexpected(named(job, Error{ErrorCode::kMachine, error.what(), {}, 0, 0}));
+  }
+}
+
 /// The jobs and how far they are, shared by the workers.
 class Pool {
  public:
@@ -49,7 +59,7 @@ class Pool {
   /// Takes jobs until there are none; several threads call it.
   void work() {
     for (std::size_t i = next_++; i < jobs_.size() && is_wanted(i); i = next_++) {
-      auto summary = run_job(jobs_[i], options_);
+      auto summary = run_guarded(jobs_[i], options_);
       const std::lock_guard lock(mutex_);
       if (summary) {
         summaries_[i] = std::move(*summary);

@@ -7,12 +7,14 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "config/find_file.hpp"
 #include "config/machine_file.hpp"
+#include "core/must_finish.hpp"
 #include "core/units.hpp"
 #include "studies/identify/minimise.hpp"
 #include "studies/identify/parallel_for.hpp"
@@ -139,11 +141,15 @@ struct Stage {
 constexpr Stage kWide{0.6, 0.12, 2, smooth_cost, 0.0};
 constexpr Stage kNear{0.4, 0.05, 3, share_cost, 0.4};
 
+/// @param stop  if set, the rest is left out and the cost says nothing; may be null
 double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const MachineFile& machine,
-               const Stage& stage) {
+               const Stage& stage, const std::atomic<bool>* stop) {
   const std::size_t n = stage.repeats;
   std::vector<std::array<double, kErrors>> errors(runs.size() * n);
   studies::identify::parallel_for(errors.size(), [&](std::size_t i) {
+    if (stop != nullptr && stop->load()) {
+      return;
+    }
     MachineFile file = machine;
     file.table = with_phases_of_repeat(machine.table, static_cast<int>(i % n));
     errors[i] = errors_um(runs[i / n].run(file));
@@ -184,6 +190,13 @@ Expected<MachineFile> fit_planning(const Rows& rows, const MachineFile& start) {
   return result ? with_planning_kf(start, kf) : result;
 }
 
+/// @returns an error where the caller wants to end
+Expected<void> ask(const std::atomic<bool>* stop) {
+  return stop != nullptr && stop->load()
+             ? Expected<void>(fail(ErrorCode::kInterrupted, "interrupted: nothing was written"))
+             : Expected<void>();
+}
+
 /// A parameter whose move by a tenth of its range raises the cost by less says nothing: the same
 /// move of the phases alone does as much.
 constexpr double kLeastRise = 0.1;
@@ -218,11 +231,13 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
   TWIN_TRY(const MachineFile planned, fit_planning(rows, start));
   TWIN_TRY(const std::vector<TableRun> runs, rows.plan(planned));
   const auto cost = [&](std::span<const double> x, const Stage& stage) {
-    return cost_of(rows, runs, parameters.with_units(planned, x), stage);
+    return cost_of(rows, runs, parameters.with_units(planned, x), stage, options.stop);
   };
   TableFit fit;
   std::vector<double> x = parameters.units(planned);
   fit.cost_before = cost(x, kNear);
+  TWIN_CHECK(ask(options.stop));
+  const MustFinish finish;  // from here on there is a best so far
   double done = 0.0;
   for (const Stage& stage : {kWide, kNear}) {
     studies::identify::MinimiseOptions search;
@@ -238,13 +253,24 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
         options.progress(done + share * stage.share, least);
       };
     }
+    std::optional<double> first;
     const studies::identify::Minimum best = studies::identify::minimise(
-        [&](std::span<const double> at) { return cost(at, stage); }, search);
+        [&](std::span<const double> at) {
+          const double known = cost(at, stage);
+          first = first.value_or(known);
+          return known;
+        },
+        search);
     x = best.x;
-    fit.was_stopped = fit.was_stopped || best.was_stopped;
     done += stage.share;
+    fit.cost_after = best.cost;
+    if (best.was_stopped) {
+      fit.was_stopped = true;
+      fit.cost_before = stage.repeats == kNear.repeats ? fit.cost_before : *first;
+      break;
+    }
   }
-  fit.cost_after = cost(x, kNear);
+  fit.cost_after = fit.was_stopped ? fit.cost_after : cost(x, kNear);
   if (fit.cost_after > fit.cost_before) {  // the wide stage has left what was better
     x = parameters.units(planned);
     fit.cost_after = fit.cost_before;
