@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "tests/fuzz/chain/known_defects.hpp"
+#include "tests/fuzz/minimise.hpp"
 #include "tests/fuzz/random_statistics.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -24,6 +25,7 @@
 //   twin_fuzz findings FOLDER     each file of FOLDER/TARGET through its target
 //   twin_fuzz show TARGET FILE    what a file means
 //   twin_fuzz random COUNT SEED [FIRST]   random programs through the whole chain
+//   twin_fuzz minimise FILE TEXT  smaller bytes for the chain with a finding that says TEXT still
 //   twin_fuzz bytes NUMBER SEED   the bytes of one of them, to standard output
 namespace twin::fuzz {
 namespace {
@@ -173,13 +175,19 @@ int run(const std::vector<std::string>& words) {
     return run_random(std::stoull(words[1]), std::stoull(words[2]),
                       words.size() > 3 ? std::stoull(words[3]) : 0);
   }
+  if (words.size() == 3 && words[0] == "minimise") {
+    const auto bytes = minimise(contents(words[1]), words[2]);
+    std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    return 0;
+  }
   if (words.size() == 3 && words[0] == "bytes") {
     const auto bytes = random_bytes(std::stoull(words[2]), std::stoull(words[1]));
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);
     return 0;
   }
   fmt::print(stderr,
-             "twin_fuzz findings FOLDER | show TARGET FILE | random COUNT SEED [FIRST] | bytes "
+             "twin_fuzz findings FOLDER | show TARGET FILE | random COUNT SEED [FIRST] | minimise "
+             "FILE TEXT | bytes "
              "NUMBER SEED\n");
   return 2;
 }

@@ -43,7 +43,7 @@ void choose_for_paper(ByteSource& bytes, config::MachineFile& machine) {
   machine.path.planner = Planner::kPaper;
   machine.path.curves = static_cast<CurveKind>(bytes.choice(3));
   machine.planning.feedrate_rule = static_cast<FeedrateRule>(bytes.choice(5));
-  machine.planning.tool_radius = bytes.uniform(0.0, 5.0);
+  machine.planning.tool_radius = bytes.uniform(0.0, 0.1);
   machine.planning.acceleration_profile = static_cast<AccelerationProfile>(bytes.choice(3));
   if (machine.planning.acceleration_profile == AccelerationProfile::kFir) {
     // Its ramps take A / J at least, whatever the change of feedrate.

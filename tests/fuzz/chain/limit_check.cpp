@@ -119,7 +119,7 @@ void drop_unpromised(const config::MachineFile& machine, Shares& shares) {
   const bool is_paper = machine.path.planner == Planner::kPaper;
   const FeedrateRule rule = machine.planning.feedrate_rule;
   // The planner of the paper has no limits of single axes, and a rule that leaves out the normal
-  // acceleration.
+  // acceleration: then the way between set points cannot be told from them.
   if (is_paper) {
     drop({Measure::kAxisFeedrate, Measure::kAxisAcceleration, Measure::kAxisJerk});
   }
@@ -127,7 +127,8 @@ void drop_unpromised(const config::MachineFile& machine, Shares& shares) {
       rule == FeedrateRule::kConstant ||
       (rule == FeedrateRule::kAuto && machine.path.curves == CurveKind::kBezier);
   if (is_paper && is_constant) {
-    drop({Measure::kVectorAcceleration, Measure::kRawNormal});
+    drop({Measure::kVectorAcceleration, Measure::kRawNormal, Measure::kRawTangential,
+          Measure::kRawJerk, Measure::kTangential, Measure::kJerk});
   }
   // Landing on the end of a curve makes a short step, and a parameter that is not corrected runs
   // unevenly.

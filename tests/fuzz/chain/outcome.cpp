@@ -78,6 +78,8 @@ double tolerated(Measure measure) {
       return 1.02;
     case Measure::kJerk:
       return 1.07;
+    case Measure::kTime:
+      return 1.01;
     default:
       return 1.0;
   }
@@ -99,7 +101,9 @@ Outcome examine(const Case& made, bool is_repeated) {
     return outcome;
   }
   if (trajectory.ending == Ending::kNone) {
-    outcome.findings.emplace_back("the motion does not end");
+    (is_known_to_crawl(made) ? outcome.known : outcome.findings)
+        .emplace_back("the motion does not end");
+    return outcome;
   }
   if (trajectory.points.empty()) {
     outcome.findings.emplace_back("a program that moves has no set points");

@@ -8,8 +8,9 @@
 namespace twin::fuzz {
 namespace {
 
-constexpr double kMostTimes = 4.0;        // of the reference time
-constexpr double kMostMore = 2000.0;      // [periods]
+constexpr double kMostTimes = 4.0;      // of the reference time
+constexpr double kContactTimes = 12.0;  // the same where the tool's edge is faster than its centre
+constexpr double kMostMore = 2000.0;    // [periods]
 constexpr std::size_t kRestPeriods = 40;  // so many equal set points in a hold are a rest
 
 std::size_t most_steps(const Case& made) {
@@ -19,7 +20,9 @@ std::size_t most_steps(const Case& made) {
     lowest = change.percent > 0.0 ? std::min(lowest, change.percent) : lowest;
     end = change.time;
   }
-  const double time = kMostTimes * made.reference_time * 100.0 / lowest + end;
+  const bool is_contact = made.machine.planning.feedrate_rule == FeedrateRule::kContactSpeed;
+  const double times = is_contact ? kContactTimes : kMostTimes;
+  const double time = times * made.reference_time * 100.0 / lowest + end;
   return static_cast<std::size_t>(time / made.machine.period + kMostMore);
 }
 
