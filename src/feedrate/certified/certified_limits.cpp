@@ -36,6 +36,25 @@ constexpr int kArcParts = 48;
 /// jerk (axis_limits.hpp), so twice as much could be too much, and the way down too short.
 constexpr double kRest = 0.25;
 
+/// Largest turn of the path within a period in a bend that winds on, by kWinding and more [rad]. Set points that are farther
+/// apart do not tell the motion between them: the arc seems longer or shorter by up to the fifth
+/// power of the turn. Only details of some 10 um have such bends; twice as much leaves a jerk in
+/// their set points that nobody planned.
+constexpr double kWindingTurn = 0.4;
+
+/// A bend that turns by more than this is no corner: a corner turns by less than pi, which its
+/// samples show as up to a fifth more [rad].
+constexpr double kWinding = 1.5 * std::numbers::pi;
+
+/// The same in any bend, where the acceleration can swing within a period (kSwing). Then the
+/// tangential acceleration before and after the middle of the bend has a part square to the path,
+/// which grows with the turn.
+constexpr double kSwingingTurn = 0.2;
+
+/// Share of A by which the acceleration changes in a period, J T / A, from which it swings. Below,
+/// the part of the tangential acceleration is small.
+constexpr double kSwing = 0.25;
+
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
   return model;
@@ -91,6 +110,14 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       corner_error_(model.corner_error),
       has_axis_limits_(has_axis_limits(limits)) {}
 
+/// Largest turn within a period [rad].
+double CertifiedLimits::most_turn(const Interval& interval) const noexcept {
+  if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
+    return kSwingingTurn;
+  }
+  return interval.is_winding ? kWindingTurn : std::numeric_limits<double>::infinity();
+}
+
 double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On what) const {
   const LocalGeometry at{interval.curvature};
   const double by_rule = interval.is_brief ? brief_.limit_at(at, feedrate, what)
@@ -98,6 +125,9 @@ double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On w
   double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
+    if (const double turn = most_turn(interval); std::isfinite(turn)) {
+      limit = std::min(limit, turn / (at.curvature * period_));
+    }
   }
   return limit;
 }
@@ -137,6 +167,7 @@ void CertifiedLimits::find_brief_bends() {
                           1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
     for (std::size_t i = begin; i < end; ++i) {
       intervals_[i].is_brief = is_brief;
+      intervals_[i].is_winding = turn >= kWinding;
       intervals_[i].is_held = is_brief && i > begin && intervals_[i].curvature > kBesideBend * peak;
     }
     begin = end;

@@ -17,6 +17,7 @@ namespace twin::feedrate {
 ///   the feedrate asked for,
 ///   the limit of the machine file's rule (FeedrateRules), with kappa v^2 <= A_max,
 ///   the feedrate at which the chord of a period keeps the chord tolerance (chord_error_feedrate),
+///   the feedrate at which the path turns by no more than the set points can tell in a period,
 ///   the limits of each axis (axis_limits.hpp), where they are set.
 ///
 /// The servo model allows two contour errors: the circular error where the path is curved for long,
@@ -54,11 +55,13 @@ class CertifiedLimits final : public LimitSource {
   struct Interval {
     double begin;  // [mm]
     double end;
-    double curvature;       // largest curvature in the interval [1/mm]
-    bool is_brief = false;  // part of a brief bend
-    bool is_held = false;   // has one feedrate limit together with the interval before it
+    double curvature;         // largest curvature in the interval [1/mm]
+    bool is_brief = false;    // part of a brief bend
+    bool is_winding = false;  // part of a bend that turns by more than a corner does
+    bool is_held = false;     // has one feedrate limit together with the interval before it
   };
 
+  double most_turn(const Interval& interval) const noexcept;
   double limit_at(const Interval& interval, double feedrate, On what) const;
   void find_intervals(const path::FittedCurve& curve);
   void find_brief_bends();

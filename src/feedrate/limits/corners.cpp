@@ -19,6 +19,21 @@ double turn_between(const Vec3& before, const Vec3& after) {
   return std::atan2(before.cross(after).norm(), before.dot(after));
 }
 
+/// Share of an axis's acceleration and jerk that a jump may use. The rest is for the motion beside
+/// it, which has the same periods: twice as much makes jumps faster by its square root, and the set
+/// points beside them may exceed the limits.
+constexpr double kJumpShare = 0.25;
+
+/// Share of an axis's jerk for the tangential motion beside a jump.
+constexpr double kBesideJump = 0.5;
+
+/// Least feedrate of sharp corners that hide each other, as a share of that of a single turn back.
+/// Corners closer than 0.1 um would all but stop the motion otherwise. Half as much makes chains of
+/// such corners slower, and limits far below those beside them make plans fail.
+constexpr double kLeastSeen = 0.25;
+
+constexpr double kNoJump = 1e-9;  // of dC/ds [-] and of d2C/ds2 [1/mm]
+
 /// Corner feedrate of the acceleration rule. The feedrate is lowest at the corner itself and
 /// averages J T^2 / 6 more over the periods on either side, where the set points see it.
 double passing_feedrate(double turn, double curvature, const RampLimits& ramp, double period) {
@@ -49,6 +64,30 @@ double corner_ripple_feedrate(double turn, double jerk, double period) noexcept 
                     : std::numeric_limits<double>::infinity();
 }
 
+LimitZone axis_jump_limit(const path::PathPoint& before, const path::PathPoint& after,
+                          const Limits& limits, double period) noexcept {
+  LimitZone zone;
+  zone.limit = std::numeric_limits<double>::infinity();
+  const Vec3 turn = (after.tangent - before.tangent).cwiseAbs();
+  const Vec3 bend = (after.curvature - before.curvature).cwiseAbs();
+  for (int i = 0; i < 3; ++i) {
+    const double a = kJumpShare * limits.axis_acceleration[i];
+    const double j = kJumpShare * limits.axis_jerk[i];
+    if (a > 0.0 && turn[i] > kNoJump) {
+      zone.limit = std::min(zone.limit, a * period / turn[i]);
+    }
+    if (j > 0.0 && turn[i] > kNoJump) {
+      zone.limit = std::min(zone.limit, j * period * period / turn[i]);
+    }
+    if (j > 0.0 && bend[i] > kNoJump) {
+      zone.limit = std::min(zone.limit, std::sqrt(j * period / bend[i]));
+      const double along = std::max(std::abs(before.tangent[i]), std::abs(after.tangent[i]));
+      zone.jerk = std::min(zone.jerk, kBesideJump * limits.axis_jerk[i] / std::max(along, 1e-3));
+    }
+  }
+  return zone;
+}
+
 JunctionLimits::JunctionLimits(const Limits& limits, const PlanningModel& model, double period)
     : limits_(limits), model_(model), ramp_{limits.acceleration, limits.jerk}, period_(period) {}
 
@@ -59,8 +98,13 @@ void JunctionLimits::append(const path::Segment& before, const path::Segment& af
     turns_.clear();
     return;
   }
+  LimitZone place = axis_jump_limit(before.end, after.begin, limits_, period_);
+  place.begin = place.end = s;
   const double turn = turn_between(before.end.tangent, after.begin.tangent);
   if (turn < kNoTurn) {
+    if (place.limit < limits_.feedrate) {
+      zones.push_back(place);
+    }
     return;
   }
   const double reach = limits_.feedrate * period_;
@@ -73,14 +117,16 @@ void JunctionLimits::append(const path::Segment& before, const path::Segment& af
     limit = std::min(limit, std::max(kHidingShare * turn / (curvature * period_),
                                      corner_ripple_feedrate(turn, limits_.jerk, period_)));
   }
-  zones.push_back({s, s, limit});
+  place.limit = std::min(place.limit, limit);
+  zones.push_back(place);
   limit_cluster(turn, s, zones);
 }
 
 /// Limits corners a few periods apart by each other. Where the turns of several corners, over the
 /// distance l from the first to the last, sum to phi, either the feedrate keeps them apart
 /// (v T <= l), or it obeys the corner rule for phi. Where one corner hides another from the set
-/// points, either the feedrate puts kHidingPeriods between them, or it keeps the ripple small.
+/// points, either the feedrate puts kHidingPeriods between them, or it keeps the ripple small. Two
+/// sharp corners hide each other: a period that holds both, there and back, seems to go straight on.
 void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>& zones) {
   LimitZone& latest = zones.back();
   const auto lower = [](LimitZone& zone, double limit) {
@@ -104,6 +150,12 @@ void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>
                               corner_ripple_feedrate(hidden, limits_.jerk, period_)));
       }
     };
+    if (turn >= kSharpTurn && old.angle >= kSharpTurn) {
+      const double back = passing_feedrate(std::numbers::pi, 0.0, ramp_, period_);
+      const double seen = std::max(apart / kHidingPeriods, kLeastSeen * back);
+      lower(latest, seen);
+      lower(zone, seen);
+    }
     limit_hidden(turn, old.angle, latest);
     limit_hidden(old.angle, turn, zone);
   }

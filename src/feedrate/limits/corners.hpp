@@ -49,6 +49,19 @@ double corner_acceleration_feedrate(double turn, double curvature, double accele
 /// @returns [mm/s]; infinity where turn is 0
 double corner_ripple_feedrate(double turn, double jerk, double period) noexcept;
 
+/// Limits of a place where the first or second derivative of the path jumps, for limits of single
+/// axes.
+///
+/// At feedrate v a jump D of dC/ds changes the velocity of an axis by D v, and a jump K of d2C/ds2
+/// changes its acceleration by K v^2, both within one period. So an axis keeps
+///   D v <= A T,   D v <= J T^2,   K v^2 <= J T,
+/// each with a quarter of its limits. Beside a jump of d2C/ds2 the tangential jerk is limited, too.
+///
+/// @param period  interpolation period T [s]
+/// @returns a zone without place; its limit is infinite where nothing limits the feedrate
+LimitZone axis_jump_limit(const path::PathPoint& before, const path::PathPoint& after,
+                          const Limits& limits, double period) noexcept;
+
 /// A corner that turns by more than this can be recognised beside any bend, even if its turn is
 /// spread over two set points [rad]. A larger angle slows down sharp corners beside bends for
 /// nothing; a smaller one leaves corners at full feedrate that the set points show as jerk.
