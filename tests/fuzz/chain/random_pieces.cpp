@@ -8,9 +8,9 @@
 namespace twin::fuzz {
 namespace {
 
-constexpr double kBlockPeriods = 400.0;     // longest time of one block [periods]
-constexpr double kProgramPeriods = 1500.0;  // no further block after so long [periods]
-constexpr std::size_t kMostBlocks = 120;
+constexpr double kBlockPeriods = 200.0;    // longest time of one block [periods]
+constexpr double kProgramPeriods = 500.0;  // no further block after so long [periods]
+constexpr std::size_t kMostBlocks = 60;
 constexpr double kHalfRoom = 120.0;  // from here on it turns back, for the travel is 200 [mm]
 constexpr double kHalfRoomZ = 40.0;
 
