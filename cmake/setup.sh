@@ -115,7 +115,7 @@ build() {
     tests) options=(-DTWIN_BUILD_TESTS=ON) ;;
     fuzz)
       options=(-DTWIN_BUILD_TESTS=OFF -DTWIN_BUILD_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo
-        "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -gline-tables-only" -DTWIN_SANITIZE=address,undefined,fuzzer-no-link)
+        "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -gline-tables-only -DEIGEN_NO_DEBUG" -DTWIN_SANITIZE=address,undefined,fuzzer-no-link)
       ;;
   esac
   mkdir -p "$TWIN_BUILD"

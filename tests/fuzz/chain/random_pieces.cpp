@@ -8,9 +8,9 @@
 namespace twin::fuzz {
 namespace {
 
-constexpr double kBlockPeriods = 400.0;     // longest time of one block [periods]
-constexpr double kProgramPeriods = 1500.0;  // no further block after so long [periods]
-constexpr std::size_t kMostBlocks = 120;
+constexpr double kBlockPeriods = 200.0;    // longest time of one block [periods]
+constexpr double kProgramPeriods = 500.0;  // no further block after so long [periods]
+constexpr std::size_t kMostBlocks = 60;
 constexpr double kHalfRoom = 120.0;  // from here on it turns back, for the travel is 200 [mm]
 constexpr double kHalfRoomZ = 40.0;
 
@@ -130,7 +130,8 @@ class Writer {
   double fit(double length, double feedrate) const {
     const Limits& l = machine_.limits;
     const double most = kBlockPeriods * machine_.period;
-    const Pace pace = safe_pace(l, Vec3::Ones(), HUGE_VAL, feedrate, machine_.period, 1.0);
+    const Pace pace =
+        safe_pace(l, Vec3::Ones(), HUGE_VAL, feedrate, machine_.period, 1.0, machine_.planning);
     for (int i = 0; i < 60 && stop_time(length, pace) > most; ++i) {
       length *= 0.5;
     }
@@ -269,8 +270,9 @@ double reference_time(const Piece& piece, const config::MachineFile& machine) {
   if (points.size() == 1) {
     return piece.dwell;
   }
-  const Pace pace = safe_pace(machine.limits, directions_of(points), piece.shape.radius,
-                              piece.feedrate, machine.period, machine.path.chord_error);
+  const Pace pace =
+      safe_pace(machine.limits, directions_of(points), piece.shape.radius, piece.feedrate,
+                machine.period, machine.path.chord_error, machine.planning);
   const double time = stop_time(length_of(points), pace);
   switch (machine.planning.acceleration_profile) {
     case AccelerationProfile::kTrapezoidal:

@@ -16,6 +16,14 @@ double along(double limit, const Vec3& axis_limits, const Vec3& direction) {
   return limit;
 }
 
+/// V = r Kp sqrt((1 - q^2) / (q^2 - Kf^2)) with q = 1 - eps / r: the first-order servo runs on a
+/// circle that is smaller by eps. [WY09, Eq. 4]
+double servo_feedrate(double radius, const PlanningModel& model) {
+  const double q = 1.0 - model.circular_error / radius;
+  return q > model.kf ? radius * model.kp * std::sqrt((1.0 - q * q) / (q * q - model.kf * model.kf))
+                      : HUGE_VAL;
+}
+
 }  // namespace
 
 double stop_time(double length, const Pace& pace) {
@@ -34,7 +42,7 @@ double stop_time(double length, const Pace& pace) {
 }
 
 Pace safe_pace(const Limits& limits, const Vec3& direction, double radius, double feedrate,
-               double period, double chord) {
+               double period, double chord, const PlanningModel& model) {
   Pace pace{along(std::min(feedrate, limits.feedrate), limits.axis_feedrate, direction),
             along(limits.acceleration, limits.axis_acceleration, direction),
             along(limits.jerk, limits.axis_jerk, direction)};
@@ -51,7 +59,8 @@ Pace safe_pace(const Limits& limits, const Vec3& direction, double radius, doubl
   if (radius > chord) {
     v = std::min(v, 2.0 / period * std::sqrt(chord * (2.0 * radius - chord)));
   }
-  pace.feedrate = v;
+  pace.feedrate = std::min(v, servo_feedrate(radius, model));
+  v = pace.feedrate;
   pace.acceleration = std::min(pace.acceleration, j * radius / (3.0 * v));
   return pace;
 }

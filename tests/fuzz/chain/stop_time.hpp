@@ -30,7 +30,8 @@ double stop_time(double length, const Pace& pace);
 /// @param feedrate   programmed [mm/s]
 /// @param period     interpolation period [s]
 /// @param chord      chord tolerance [mm]
+/// @param model      whose servo errs by its tolerance on a circle at a feedrate that is not exceeded
 Pace safe_pace(const Limits& limits, const Vec3& direction, double radius, double feedrate,
-               double period, double chord);
+               double period, double chord, const PlanningModel& model);
 
 }  // namespace twin::fuzz
