@@ -51,6 +51,10 @@ constexpr double kWinding = 1.5 * std::numbers::pi;
 /// which grows with the turn.
 constexpr double kSwingingTurn = 0.2;
 
+/// Feedrate of a turn back, as a share of A T: it changes the velocity by 2 v. Without this floor,
+/// bends of a hundredth of a micrometre would all but stop the motion.
+constexpr double kAnyTurn = 0.25;
+
 /// Share of A by which the acceleration changes in a period, J T / A, from which it swings. Below,
 /// the part of the tangential acceleration is small.
 constexpr double kSwing = 0.25;
@@ -110,6 +114,12 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       corner_error_(model.corner_error),
       has_axis_limits_(has_axis_limits(limits)) {}
 
+/// Feedrate at which any turn at all may lie within a period: it changes the velocity by less than
+/// A and J allow [mm/s].
+double CertifiedLimits::any_turn_feedrate() const noexcept {
+  return kAnyTurn * period_ * std::min(limits_.acceleration, limits_.jerk * period_);
+}
+
 /// Largest turn within a period [rad].
 double CertifiedLimits::most_turn(const Interval& interval) const noexcept {
   if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
@@ -126,7 +136,7 @@ double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On w
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
     if (const double turn = most_turn(interval); std::isfinite(turn)) {
-      limit = std::min(limit, turn / (at.curvature * period_));
+      limit = std::min(limit, std::max(turn / (at.curvature * period_), any_turn_feedrate()));
     }
   }
   return limit;

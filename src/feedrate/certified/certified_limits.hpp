@@ -61,6 +61,7 @@ class CertifiedLimits final : public LimitSource {
     bool is_held = false;     // has one feedrate limit together with the interval before it
   };
 
+  double any_turn_feedrate() const noexcept;
   double most_turn(const Interval& interval) const noexcept;
   double limit_at(const Interval& interval, double feedrate, On what) const;
   void find_intervals(const path::FittedCurve& curve);
