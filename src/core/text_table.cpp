@@ -114,8 +114,29 @@ std::string to_text(const TextTable& table, const TextLayout& layout) {
   return text;
 }
 
+namespace {
+
+/// Any text within one cell of a Markdown table, or in its heading.
+std::string in_one_cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '|' ? "\\|" : std::string(1, static_cast<unsigned char>(c) < 32 ? ' ' : c);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string quote_csv(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    result.append(c == '"' ? 2 : 1, c);
+  }
+  return result + "\"";
+}
+
 std::string to_markdown(const TextTable& table) {
-  std::string text = fmt::format("## {}\n\n| {}| |", table.title,
+  std::string text = fmt::format("## {}\n\n| {}| |", in_one_cell(table.title),
                                  table.row_head.empty() ? "" : table.row_head + " ");
   std::string rule = "| --- | --- |";
   for (const std::string& head : table.head) {
@@ -125,7 +146,7 @@ std::string to_markdown(const TextTable& table) {
   text += table.note_head.empty() ? "\n" : fmt::format(" {} |\n", table.note_head);
   text += rule + (table.note_head.empty() ? "\n" : " --- |\n");
   for (const Line& line : table.lines) {
-    text += fmt::format("| {} | {} |", line.row, line.what);
+    text += fmt::format("| {} | {} |", in_one_cell(line.row), line.what);
     for (const Cell& cell : line.cells) {
       const std::string_view bold = cell.mark == Mark::kOutside ? "**" : "";
       text += fmt::format(" {}{}{} |", bold, cell.text, bold);

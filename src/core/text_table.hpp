@@ -60,6 +60,9 @@ std::string to_markdown(const TextTable& table);
 /// A heading and an HTML table; cells have the class of their mark: w10, w20, w30, out, doubt.
 std::string to_html(const TextTable& table);
 
+/// Any text as a field of a CSV file: between quotes, those of the text doubled.
+std::string quote_csv(std::string_view text);
+
 /// Any text as HTML shows it.
 std::string escape_html(std::string_view text);
 

@@ -32,7 +32,9 @@ Expected<void> prepare_output_file(const std::filesystem::path& file) {
 
 std::filesystem::path result_folder(const std::filesystem::path& chosen,
                                     const std::filesystem::path& name) {
-  return chosen.empty() ? "renders" / name : chosen;
+  const bool is_way_out = name == "." || name == "..";  // the stem of "...nc" is ".."
+  return chosen.empty() ? std::filesystem::path("renders") / (is_way_out ? "program" : name)
+                        : chosen;
 }
 
 Expected<void> write_summary(const std::filesystem::path& folder,

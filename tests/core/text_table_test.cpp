@@ -50,5 +50,7 @@ TEST(TextTable, MarkdownHasTheSameColumnsInEveryRow) {
             "| two |  | 10.25 | - |\n\n");
 }
 
+TEST(TextTable, QuotesInAFieldOfCsvAreDoubled) { EXPECT_EQ(quote_csv("a\"b,c"), "\"a\"\"b,c\""); }
+
 }  // namespace text_table_test
 }  // namespace twin

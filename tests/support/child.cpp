@@ -36,6 +36,9 @@ void send_to(const char* file, int descriptor) {
     setrlimit(RLIMIT_FSIZE, &limit);
     std::signal(SIGXFSZ, SIG_IGN);  // write() then fails with EFBIG
   }
+  if (options.prepare) {
+    options.prepare();
+  }
   execv(TWIN_EXECUTABLE, arguments);
   _exit(kCannotStart);
 }

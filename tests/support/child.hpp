@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ class Child {
   struct Options {
     std::filesystem::path directory;   ///< it runs there, and `child.out`, `child.err` too
     std::optional<long> largest_file;  ///< bytes a file may grow to, as on a full disk
+    std::function<void()> prepare{};   ///< called in the child before it becomes `twin`
   };
 
   Child(const std::vector<std::string>& arguments, Options options);

@@ -221,14 +221,17 @@ std::string title_line(const std::string& title) { return set_title(title); }
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
+  char before = '\0';
   for (const char c : text) {
     if (static_cast<unsigned char>(c) < 32) {
       result += ' ';
-    } else if (c == '\'') {
-      result += "''";
-    } else {
+    } else if (c != '\'') {
       result += c;
+    } else {
+      // Gnuplot does not read two doubled quotes in a row, so the second one is joined to the first.
+      result += before == '\'' ? R"('."'".')" : "''";
     }
+    before = c;
   }
   return result + "'";
 }

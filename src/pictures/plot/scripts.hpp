@@ -23,7 +23,7 @@ Script page(const std::string& name, const std::string& settings, const std::str
 /// The line that sets the title; any text.
 std::string title_line(const std::string& title);
 
-/// Any text as a gnuplot string constant.
+/// Any text as a gnuplot string expression.
 std::string quoted(const std::string& text);
 
 /// Magnification 1, 2 or 5 times a power of ten at which the largest error spans about a twentieth

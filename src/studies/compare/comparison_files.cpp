@@ -107,7 +107,7 @@ std::string interpolators_csv(const Comparison& comparison) {
 std::string fluctuations_csv(const Comparison& comparison) {
   std::string text = "program,feedrate_rule,parameter_update,max_percent,rms_percent\n";
   for (const Fluctuation& f : comparison.fluctuations) {
-    text += fmt::format("\"{}\",{},{},{:.6g},{:.6g}\n", f.program, f.feedrate_rule,
+    text += fmt::format("{},{},{},{:.6g},{:.6g}\n", quote_csv(f.program), f.feedrate_rule,
                         f.parameter_update, 100.0 * f.shares.max, 100.0 * f.shares.rms);
   }
   return text;

@@ -38,7 +38,7 @@ std::string csv_text(const std::vector<PlannerRow>& rows) {
   }
   text += ",audit\n";
   for (const PlannerRow& row : rows) {
-    text += fmt::format("\"{}\",{}", row.program, row.planner);
+    text += fmt::format("{},{}", quote_csv(row.program), row.planner);
     for (const Column& column : kColumns) {
       const auto value = results::quantity(column.key).get(row.summary);
       text += value ? fmt::format(",{:.6g}", *value) : ",";

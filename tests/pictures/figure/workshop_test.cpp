@@ -25,6 +25,17 @@ TEST(Workshop, LeavesNothingThatWasNotDelivered) {
   EXPECT_TRUE(std::filesystem::is_empty(folder / "results"));
 }
 
+TEST(Workshop, OneThatAKilledProgramLeftIsRemovedAndOneInUseIsNot) {
+  const test::TempFolder folder;
+  std::filesystem::create_directories(folder / ".unfinished_killed/figures");
+  const auto first = Workshop::open(folder.path());
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(std::filesystem::exists(folder / ".unfinished_killed"));
+  const auto second = Workshop::open(folder.path());
+  ASSERT_TRUE(second);
+  EXPECT_TRUE(std::filesystem::exists(first->folder()));
+}
+
 TEST(Workshop, DeliveredFilesAndFoldersTakeThePlaceOfOlderOnes) {
   const test::TempFolder folder;
   std::filesystem::create_directories(folder / "figures");

@@ -1,6 +1,9 @@
 #include "core/atomic_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <thread>
 
 #include "tests/support/files.hpp"
 #include "tests/support/synthetic_trace.hpp"
@@ -66,6 +69,51 @@ TEST(AtomicFile, TwoWritersOfOneFileCannotMix) {
   EXPECT_EQ(second.error().message, "another run is writing this file");
   first->abandon();
   EXPECT_TRUE(AtomicFile::create(directory.path() / "a", temporary));
+}
+
+TEST(AtomicFile, TheLockIsOnTheFileThatHasTheNameNotOnOneThatHadIt) {
+  const TempFolder directory;
+  const auto target = directory.path() / "a";
+  const auto temporary = directory.path() / "a.tmp";
+  for (int i = 0; i < 200; ++i) {
+    // One thread commits while the other opens: whoever gets in must not empty what is whole.
+    auto first = AtomicFile::create(target, temporary);
+    ASSERT_TRUE(first && first->write("whole"));
+    std::jthread second([&] {
+      for (int j = 0; j < 20; ++j) {
+        static_cast<void>(AtomicFile::create(target, temporary));
+      }
+    });
+    ASSERT_TRUE(first->commit());
+    second.join();
+    ASSERT_EQ(content(target), "whole");
+  }
+}
+
+TEST(AtomicFile, ALinkOrFifoInThePlaceOfTheTemporaryIsRefused) {
+  const TempFolder directory;
+  const auto precious = directory.path() / "precious";
+  put(precious, "kept");
+  std::filesystem::create_symlink(precious, directory.path() / "a.tmp");
+  const auto linked = write_whole_file(directory.path() / "a", "text");
+  ASSERT_FALSE(linked);
+  EXPECT_EQ(linked.error().message, "cannot write: there is a symbolic link of this name");
+  EXPECT_EQ(content(precious), "kept");
+  ASSERT_EQ(mkfifo((directory.path() / "b.tmp").c_str(), 0600), 0);
+  const auto piped = write_whole_file(directory.path() / "b", "text");
+  ASSERT_FALSE(piped);
+  EXPECT_EQ(piped.error().message, "cannot write: there is a FIFO of this name");
+}
+
+TEST(AtomicFile, AProcessThatIsEndedRemovesWhatHasATemporaryName) {
+  const TempFolder directory;
+  auto file = AtomicFile::create(directory.path() / "a", directory.path() / "a.tmp");
+  auto kept =
+      AtomicFile::create(directory.path() / "b", directory.path() / "b.partial", OnAbandon::kKeep);
+  ASSERT_TRUE(file && kept);
+  TemporaryName::remove_all();
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "a.tmp"));
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "b.partial"));
 }
 
 TEST(AtomicFile, MissingDirectoryIsNamed) {
