@@ -120,7 +120,7 @@ void LookAhead::append_limits(double begin, double end, std::size_t& next,
 void LookAhead::append_stretches(double begin, double end, std::size_t& next,
                                  PlannedSegment& planned) const {
   const std::vector<Stretch>& stretches = window_.stretches;
-  for (std::size_t i = next; limits_.has_zone_ramps() && i < stretches.size(); ++i) {
+  for (std::size_t i = next; i < stretches.size(); ++i) {
     Stretch stretch = stretches[i];
     next = stretch.end <= end + kPlaceRounding ? i + 1 : i;
     stretch.end -= begin;

@@ -5,6 +5,7 @@
 
 #include "feedrate/certified/certified_limits.hpp"
 #include "feedrate/certified/glide_planner.hpp"
+#include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/corners.hpp"
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/paper/hump_planner.hpp"
@@ -28,7 +29,6 @@ class PaperLimits final : public LimitSource {
   }
   void merge(std::vector<LimitZone>& /*zones*/, std::size_t /*first*/) const override {}
   RampLimits least_ramp() const override { return ramp_; }
-  bool has_zone_ramps() const override { return false; }
 
  private:
   FeedrateRules rules_;
@@ -77,7 +77,9 @@ class CertifiedPlanner final : public PlannerParts {
     return std::make_unique<CertifiedLimits>(of_.limits, of_.model, of_.path, of_.period);
   }
   std::unique_ptr<WindowPlanner> make_window_planner() const override {
-    return std::make_unique<GlidePlanner>(of_.ramp(), of_.corner_reach(), of_.look_ahead());
+    const auto ramps = has_axis_limits(of_.limits) ? GlidePlanner::Ramps::kOfZones
+                                                   : GlidePlanner::Ramps::kOfMachine;
+    return std::make_unique<GlidePlanner>(of_.ramp(), ramps, of_.corner_reach(), of_.look_ahead());
   }
 
  private:

@@ -31,7 +31,8 @@ struct Window {
   std::vector<LimitZone> zones;    ///< limits of the whole window, in path order
   Anchor start;                    ///< the feedrate is final up to this place; plans start here
   std::vector<Phase> phases;       ///< final motion of segments that are still in the window
-  std::vector<Stretch> stretches;  ///< of the final motion, in path order; for stops
+  std::vector<Stretch> stretches;  ///< of the final motion, in path order; for
+                                   ///< stops, where limits of ramps change
 };
 
 /// Where the feedrate limits inside a segment come from.
@@ -55,9 +56,6 @@ class LimitSource {
 
   /// Tangential acceleration and jerk that are allowed in every zone.
   virtual RampLimits least_ramp() const = 0;
-
-  /// Whether a zone may allow less acceleration or jerk than the machine.
-  virtual bool has_zone_ramps() const = 0;
 };
 
 /// Plans the feedrate over a window and decides which part of it is final.

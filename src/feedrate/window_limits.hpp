@@ -30,9 +30,6 @@ class WindowLimits {
   /// Appends the limits of a segment that begins at the window's end.
   void append(const path::Segment& segment, Window& window);
 
-  /// Whether a place may allow less acceleration or jerk than the machine.
-  bool has_zone_ramps() const { return source_->has_zone_ramps(); }
-
   /// The first zones are gone, and places are measured from a new start.
   /// @param distance  of the new start from the old [mm]
   void forget(double distance, std::size_t zones);

@@ -36,10 +36,10 @@ constexpr int kArcParts = 48;
 /// jerk (axis_limits.hpp), so twice as much could be too much, and the way down too short.
 constexpr double kRest = 0.25;
 
-/// Largest turn of the path within a period in a bend that winds on, by kWinding and more [rad]. Set points that are farther
-/// apart do not tell the motion between them: the arc seems longer or shorter by up to the fifth
-/// power of the turn. Only details of some 10 um have such bends; twice as much leaves a jerk in
-/// their set points that nobody planned.
+/// Largest turn of the path within a period in a bend that winds on, by kWinding and more [rad].
+/// Set points that are farther apart do not tell the motion between them: the arc seems longer or
+/// shorter by up to the fifth power of the turn. Only details of some 10 um have such bends; twice
+/// as much leaves a jerk in their set points that nobody planned.
 constexpr double kWindingTurn = 0.4;
 
 /// A bend that turns by more than this is no corner: a corner turns by less than pi, which its

@@ -49,7 +49,6 @@ class CertifiedLimits final : public LimitSource {
   /// Merges zones[first] with the zone before it if both have the same limits.
   void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
   RampLimits least_ramp() const override;
-  bool has_zone_ramps() const override { return has_axis_limits_; }
 
  private:
   struct Interval {

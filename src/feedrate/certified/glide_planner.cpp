@@ -202,7 +202,9 @@ void GlidePlanner::commit(Window& window, const Cut& cut) {
     window.start = {motion_at(plan_.back(), plan_.back().duration).s, 0.0};
   }
   plan_.erase(plan_.begin(), done);
-  commit_stretches(window);
+  if (ramps_ == Ramps::kOfZones) {
+    commit_stretches(window);
+  }
 }
 
 /// Hands on the legs up to the window's start, for stops.

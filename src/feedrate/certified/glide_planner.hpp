@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,9 +22,15 @@ namespace twin::feedrate {
 /// A plan is due when some braking distances of path have come, in however many segments.
 class GlidePlanner final : public WindowPlanner {
  public:
+  /// Where acceleration and jerk are limited.
+  enum class Ramps : std::uint8_t {
+    kOfMachine,  ///< the same everywhere, so that a stop needs no stretches
+    kOfZones     ///< zones may allow less
+  };
+
   /// @param look_ahead  fewest segments between two plans that are due by the number of segments
-  GlidePlanner(const RampLimits& ramp, double corner_reach, std::size_t look_ahead)
-      : WindowPlanner(corner_reach), ramp_(ramp), look_ahead_(look_ahead) {}
+  GlidePlanner(const RampLimits& ramp, Ramps ramps, double corner_reach, std::size_t look_ahead)
+      : WindowPlanner(corner_reach), ramp_(ramp), ramps_(ramps), look_ahead_(look_ahead) {}
 
   bool is_due(const Window& window) const override;
   void schedule(const Window& window) override;
@@ -57,6 +64,7 @@ class GlidePlanner final : public WindowPlanner {
   double rest_after(std::size_t leg, PathMotion from) const;
 
   RampLimits ramp_;
+  Ramps ramps_;
   std::size_t look_ahead_;
   Due due_;
   RampLimits least_{};    // of all zones of the window

@@ -89,7 +89,11 @@ LimitZone axis_jump_limit(const path::PathPoint& before, const path::PathPoint& 
 }
 
 JunctionLimits::JunctionLimits(const Limits& limits, const PlanningModel& model, double period)
-    : limits_(limits), model_(model), ramp_{limits.acceleration, limits.jerk}, period_(period) {}
+    : limits_(limits),
+      model_(model),
+      ramp_{limits.acceleration, limits.jerk},
+      period_(period),
+      turn_back_(passing_feedrate(std::numbers::pi, 0.0, ramp_, period)) {}
 
 void JunctionLimits::append(const path::Segment& before, const path::Segment& after, double s,
                             std::vector<LimitZone>& zones) {
@@ -151,8 +155,7 @@ void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>
       }
     };
     if (turn >= kSharpTurn && old.angle >= kSharpTurn) {
-      const double back = passing_feedrate(std::numbers::pi, 0.0, ramp_, period_);
-      const double seen = std::max(apart / kHidingPeriods, kLeastSeen * back);
+      const double seen = std::max(apart / kHidingPeriods, kLeastSeen * turn_back_);
       lower(latest, seen);
       lower(zone, seen);
     }

@@ -118,6 +118,7 @@ class JunctionLimits {
   PlanningModel model_;
   RampLimits ramp_;
   double period_;
+  double turn_back_;         // feedrate of a single turn back [mm/s]
   std::vector<Turn> turns_;  // corners that later ones may still limit
 };
 

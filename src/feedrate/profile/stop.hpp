@@ -30,8 +30,8 @@ struct StopPart {
 /// The lowest motion from a place of a stretch on that can be gone on with after its end.
 ///
 ///   1. To rest with A and J (make_brake()), where the stretch is long enough.
-///   2. Else, where the next stretch is harder and not too short, the same as far as the stretch goes: there the next
-///      part of the stop begins with the deceleration at hand, which A and J of the next allow.
+///   2. Else, where the next stretch is harder and not too short, the same as far as the stretch
+///      goes: there the next part begins with the deceleration at hand, which the next A allows.
 ///   3. Else as low as can be with no acceleration at the end, so that any A and J may follow.
 ///
 /// From a motion of the plan, or from one that such parts have led to, each part has at every place
