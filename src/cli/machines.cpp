@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/terminal.hpp"
+#include "config/find_file.hpp"
 #include "core/atomic_file.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
@@ -128,6 +129,12 @@ Expected<RigToLookAt> open_to_look(const RigArguments& arguments, config::Machin
            rig::assemble::open_to_look(seen.kind, setup_of(arguments, machine), machine.period));
   seen.machine = std::move(machine);
   return seen;
+}
+
+Expected<gcode::ProgramText> read_program(const std::string& name, const std::atomic<bool>& stop,
+                                          const std::filesystem::path& out) {
+  TWIN_TRY(const std::filesystem::path file, config::find_program(name));
+  return gcode::ProgramText::read(file, {.folder = out, .stop = &stop});
 }
 
 Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Verbosity verbosity) {

@@ -1,19 +1,28 @@
 #pragma once
 
+#include <atomic>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "cli/arguments.hpp"
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/rig_machine.hpp"
 #include "session/machine.hpp"
 
-/// From the options of a command to machine file, machine and rig.
+/// From the options of a command to program, machine file, machine and rig.
 namespace twin::cli {
+
+/// Reads the program that a command names.
+///
+/// @param out  folder of the results, where the copy of a long program is kept; may be empty
+Expected<gcode::ProgramText> read_program(const std::string& name, const std::atomic<bool>& stop,
+                                          const std::filesystem::path& out = {});
 
 /// The machine file with the settings of the command line. What the reader notes of it is printed
 /// on stderr unless the command is quiet.

@@ -19,13 +19,6 @@ namespace twin::cli {
 
 namespace {
 
-/// The program that a command names.
-Expected<gcode::ProgramText> read_program(const std::string& name, const std::filesystem::path& out,
-                                          const std::atomic<bool>& stop) {
-  TWIN_TRY(const std::filesystem::path file, config::find_program(name));
-  return gcode::ProgramText::read(file, {.folder = out, .stop = &stop});
-}
-
 /// What run and plan have in common.
 Expected<session::Request> request_of(const ProgramArguments& program,
                                       const MachineArguments& machine, const std::string& overrides,
@@ -33,7 +26,7 @@ Expected<session::Request> request_of(const ProgramArguments& program,
                                       const std::atomic<bool>& stop) {
   session::Request request;
   TWIN_TRY(request.machine, read_machine(machine, results.verbosity));
-  TWIN_TRY(request.program, read_program(program.name, results.folder, stop));
+  TWIN_TRY(request.program, read_program(program.name, stop, results.folder));
   request.feedrate = program.feedrate;
   request.folder = results.folder;
   if (!overrides.empty()) {
@@ -135,7 +128,7 @@ namespace {
 /// The program of a trace, where it is still there and still the same.
 std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
                                              const std::atomic<bool>& stop) {
-  auto program = read_program(origin.program, {}, stop);
+  auto program = read_program(origin.program, stop);
   const bool is_same = program && program->sha256() == origin.program_sha256;
   return is_same ? std::optional(*std::move(program)) : std::nullopt;
 }
@@ -169,7 +162,7 @@ namespace {
 
 Expected<void> check_program_of(const std::string& name, const CheckArguments& arguments,
                                 const config::MachineFile& machine, const std::atomic<bool>& stop) {
-  TWIN_TRY(const gcode::ProgramText program, read_program(name, {}, stop));
+  TWIN_TRY(const gcode::ProgramText program, read_program(name, stop));
   gcode::ReaderOptions reading;
   reading.feedrate = arguments.feedrate;
   TWIN_TRY(const runtime::Estimate estimate,

@@ -34,9 +34,7 @@ Expected<std::vector<gcode::ProgramText>> read_programs(const std::vector<std::s
                                                         const std::atomic<bool>& stop) {
   std::vector<gcode::ProgramText> programs;
   for (const std::string& name : names) {
-    TWIN_TRY(const std::filesystem::path file, config::find_program(name));
-    TWIN_TRY(gcode::ProgramText program,
-             gcode::ProgramText::read(file, {.folder = {}, .stop = &stop}));
+    TWIN_TRY(gcode::ProgramText program, read_program(name, stop));
     programs.push_back(std::move(program));
   }
   return programs;
@@ -261,15 +259,14 @@ std::string dialect_error(const std::string& name) {
 
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment) {
   TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
-  TWIN_TRY(const auto source, config::find_program(arguments.program.name));
+  TWIN_TRY(const auto program, read_program(arguments.program.name, environment.stop));
+  const std::filesystem::path& source = program.file();
   const std::filesystem::path file = converted_file(arguments, source);
   TWIN_CHECK(session::prepare_output_file(file));
   std::error_code ignored;
   if (std::filesystem::equivalent(file, source, ignored)) {
     return fail(ErrorCode::kUsage, "--out " + file.string() + " is the program itself");
   }
-  TWIN_TRY(const auto program,
-           gcode::ProgramText::read(source, {.folder = {}, .stop = &environment.stop}));
   studies::convert::Job job{program, {}, machine.path, machine.planning, machine.limits};
   job.reading.feedrate = arguments.program.feedrate;
   TWIN_TRY(const auto checked, studies::convert::convert_and_check(job, arguments.dialect));

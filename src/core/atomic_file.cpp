@@ -152,15 +152,7 @@ Expected<void> AtomicFile::write(std::string_view bytes) {
 }
 
 Expected<void> AtomicFile::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty() && failure_ == 0) {
-    const ssize_t written = ::write(descriptor_.get(), rest.data(), rest.size());
-    if (written > 0) {
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    } else if (written == 0 || errno != EINTR) {
-      failure_ = written == 0 ? EIO : errno;
-    }
-  }
+  failure_ = failure_ != 0 ? failure_ : write_all(descriptor_.get(), buffer_);
   buffer_.clear();
   if (failure_ != 0) {
     return file_error(target_, "write", failure_);

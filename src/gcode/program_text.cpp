@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <string_view>
 #include <utility>
 
@@ -73,18 +71,6 @@ int nameless_file(fs::path folder) {
   return named_file;
 }
 
-/// Writes all bytes. @returns 0 or errno
-int write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) {
-      return errno;
-    }
-    bytes.remove_prefix(written > 0 ? static_cast<std::size_t>(written) : 0);
-  }
-  return 0;
-}
-
 /// Whether a text has a line that no reading gets past, so that what follows need not be copied. It
 /// keeps what is no program, as /dev/zero, from being read for ever.
 class LongLineWatch {
@@ -106,26 +92,22 @@ class LongLineWatch {
   std::size_t length_ = 0;
 };
 
-}  // namespace
-
-struct ProgramText::Data {
-  fs::path file;
-  std::string text;   // the program, or empty where it is in the copy
-  Descriptor copy{};  // without a name
+/// The bytes of a program, and where they are.
+struct Bytes {
+  std::string text;   // all, or none where they are in the copy
+  Descriptor copy{};  // a file without a name
   std::int64_t size = 0;
   std::string sha256;
-  std::optional<FileState> state;  // of a regular file
 };
 
-namespace {
-
-/// Reads a program from an open file into Data.
-template <class Data>
+/// Copies a program from an open file.
 class Copying {
  public:
-  Copying(Data& data, const ProgramText::Reading& reading) : data_(data), reading_(reading) {}
+  /// @param file  for messages
+  Copying(const fs::path& file, const ProgramText::Reading& reading)
+      : file_(file), reading_(reading) {}
 
-  Expected<void> run(int from, bool is_regular) {
+  Expected<Bytes> run(int from, bool is_regular) {
     std::string piece(kPiece, '\0');
     LongLineWatch watch;
     for (bool goes_on = true; goes_on;) {
@@ -133,13 +115,13 @@ class Copying {
       const std::string_view bytes(piece.data(), count);
       TWIN_CHECK(keep(bytes));
       goes_on = count > 0 && !watch.add(bytes);
-      if (!is_regular && data_.size > kLongestPipe) {
-        return named(data_.file, ErrorCode::kFile,
+      if (!is_regular && done_.size > kLongestPipe) {
+        return named(file_, ErrorCode::kFile,
                      "the program does not end: 4 GiB were read; expected an NC program");
       }
     }
-    data_.sha256 = hash_.finish();
-    return {};
+    done_.sha256 = hash_.finish();
+    return std::move(done_);
   }
 
  private:
@@ -159,38 +141,44 @@ class Copying {
         return static_cast<std::size_t>(count);
       }
       if (errno != EINTR && errno != EAGAIN) {
-        return file_error(data_.file, "read the NC program", errno);
+        return file_error(file_, "read the NC program", errno);
       }
     }
   }
 
   Expected<void> keep(std::string_view bytes) {
     hash_.add(bytes);
-    data_.size += static_cast<std::int64_t>(bytes.size());
-    if (data_.copy.get() < 0 && data_.text.size() + bytes.size() <= ProgramText::kInMemory) {
-      data_.text.append(bytes);
+    done_.size += static_cast<std::int64_t>(bytes.size());
+    if (done_.copy.get() < 0 && done_.text.size() + bytes.size() <= ProgramText::kInMemory) {
+      done_.text.append(bytes);
       return {};
     }
-    if (data_.copy.get() < 0) {
-      data_.copy = Descriptor(nameless_file(reading_.folder));
-      if (data_.copy.get() < 0) {
-        return file_error(data_.file, "keep a copy of the NC program", errno);
+    std::string before;
+    if (done_.copy.get() < 0) {
+      done_.copy = Descriptor(nameless_file(reading_.folder));
+      if (done_.copy.get() < 0) {
+        return file_error(file_, "keep a copy of the NC program", errno);
       }
-      if (const int code = write_all(data_.copy.get(), std::exchange(data_.text, {})); code != 0) {
-        return file_error(data_.file, "keep a copy of the NC program", code);
-      }
+      before = std::exchange(done_.text, {});
     }
-    const int code = write_all(data_.copy.get(), bytes);
-    return code == 0 ? Expected<void>()
-                     : file_error(data_.file, "keep a copy of the NC program", code);
+    int code = write_all(done_.copy.get(), before);
+    code = code != 0 ? code : write_all(done_.copy.get(), bytes);
+    return code == 0 ? Expected<void>() : file_error(file_, "keep a copy of the NC program", code);
   }
 
-  Data& data_;
+  const fs::path& file_;
   const ProgramText::Reading& reading_;
+  Bytes done_;
   Sha256 hash_;
 };
 
 }  // namespace
+
+struct ProgramText::Data {
+  fs::path file;
+  Bytes bytes;
+  std::optional<FileState> state;  // of a regular file
+};
 
 Expected<ProgramText> ProgramText::read(const fs::path& path, const Reading& reading) {
   auto data = std::make_shared<Data>();
@@ -210,7 +198,7 @@ Expected<ProgramText> ProgramText::read(const fs::path& path, const Reading& rea
     return named(path, ErrorCode::kFile, "is a directory; expected an NC program");
   }
   const bool is_regular = S_ISREG(before.st_mode);
-  TWIN_CHECK(Copying(*data, reading).run(from.get(), is_regular));
+  TWIN_TRY(data->bytes, Copying(data->file, reading).run(from.get(), is_regular));
   struct stat after {};
   if (is_regular && !is_standard_input(path)) {
     data->state = FileState(before);
@@ -226,28 +214,28 @@ ProgramText::ProgramText() : data_(std::make_shared<Data>()) {}
 
 ProgramText ProgramText::from_text(std::string text, fs::path name) {
   auto data = std::make_shared<Data>();
-  data->sha256 = twin::sha256(text);
-  data->size = static_cast<std::int64_t>(text.size());
-  data->text = std::move(text);
+  data->bytes.sha256 = twin::sha256(text);
+  data->bytes.size = static_cast<std::int64_t>(text.size());
+  data->bytes.text = std::move(text);
   data->file = std::move(name);
   return ProgramText(std::move(data));
 }
 
 const fs::path& ProgramText::file() const noexcept { return data_->file; }
-std::int64_t ProgramText::size() const noexcept { return data_->size; }
-const std::string& ProgramText::sha256() const noexcept { return data_->sha256; }
+std::int64_t ProgramText::size() const noexcept { return data_->bytes.size; }
+const std::string& ProgramText::sha256() const noexcept { return data_->bytes.sha256; }
 
 Expected<std::size_t> ProgramText::copy(std::int64_t offset, std::span<char> to) const {
-  if (data_->copy.get() < 0) {
+  if (data_->bytes.copy.get() < 0) {
     const std::string_view rest =
-        std::string_view(data_->text)
-            .substr(static_cast<std::size_t>(std::min(offset, data_->size)), to.size());
+        std::string_view(data_->bytes.text)
+            .substr(static_cast<std::size_t>(std::min(offset, data_->bytes.size)), to.size());
     std::copy(rest.begin(), rest.end(), to.begin());
     return rest.size();
   }
   std::size_t done = 0;
   while (done < to.size()) {
-    const ssize_t count = ::pread(data_->copy.get(), to.data() + done, to.size() - done,
+    const ssize_t count = ::pread(data_->bytes.copy.get(), to.data() + done, to.size() - done,
                                   static_cast<off_t>(offset) + static_cast<off_t>(done));
     if (count < 0 && errno != EINTR) {
       return file_error(data_->file, "read on in the copy of the NC program", errno);

@@ -83,9 +83,10 @@ Expected<SenseRun> run_sense(const CircleTest& test, Sense sense,
   const std::string name(short_name(sense));
   TWIN_TRY(const auto hal, test.make_machine(test.machine, "circle"));
   const fs::path program = test.folder / fmt::format("circle_{}.nc", name);
-  TWIN_CHECK(write_whole_file(program, circle_program(test.radius, test.feedrate, sense)));
+  const std::string text = circle_program(test.radius, test.feedrate, sense);
+  TWIN_CHECK(write_whole_file(program, text));
   session::Request request;
-  TWIN_TRY(request.program, gcode::ProgramText::read(program));
+  request.program = gcode::ProgramText::from_text(text, program);
   request.machine = test.machine;
   request.hal = hal.get();
   request.folder = test.folder / name;
