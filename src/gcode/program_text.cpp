@@ -13,6 +13,7 @@
 #include "core/atomic_file.hpp"
 #include "core/descriptor.hpp"
 #include "core/sha256.hpp"
+#include "core/stop_wish.hpp"
 #include "gcode/line_source.hpp"
 
 namespace twin::gcode {
@@ -128,9 +129,7 @@ class Copying {
   /// The next bytes as soon as there are any; none at the end.
   Expected<std::size_t> next(int from, std::string& piece) {
     for (;;) {
-      if (reading_.stop != nullptr && reading_.stop->load()) {
-        return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
-      }
+      TWIN_CHECK(check_wish(reading_.stop, "interrupted: nothing has moved"));
       pollfd ready{from, POLLIN, 0};
       const int events = ::poll(&ready, 1, kLookAtStop);
       if (events == 0 || (events < 0 && errno == EINTR)) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/stop_wish.hpp"
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
 
@@ -13,17 +14,14 @@ Expected<double> time_bound(const gcode::ProgramText& program, const config::Mac
   gcode::Reader reader(program, {.feedrate = feedrate});
   feedrate::TimeBound bound(machine.limits, machine.planning, machine.path, machine.period,
                             std::move(profile));
-  const auto is_stopped = [stop] { return stop != nullptr && stop->load(); };
+  const auto wish = [stop] {
+    return check_wish(stop, "interrupted: the bound of the time is not known");
+  };
   TWIN_CHECK(plan_program(reader, machine, [&](feedrate::PlannedSegment&& planned) {
-    if (is_stopped()) {
-      return false;
-    }
     bound.add(planned);
-    return true;
+    return wish().has_value();
   }));
-  if (is_stopped()) {
-    return fail(ErrorCode::kInterrupted, "interrupted: the bound of the time is not known");
-  }
+  TWIN_CHECK(wish());
   return bound.finish();
 }
 

@@ -6,12 +6,14 @@
 #include <numbers>
 #include <utility>
 
+#include "core/stop_wish.hpp"
 #include "gcode/block.hpp"
 #include "results/metrics/block_distance.hpp"
 
 namespace twin::runtime {
 namespace {
 
+constexpr const char* kNothingMoved = "interrupted: nothing has moved";
 constexpr double kRounding = 1e-9;  // [mm]
 constexpr int kHalvings = 40;       // of a stretch of parameter
 
@@ -66,19 +68,11 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   }
 }
 
-/// @returns an error where the caller wants to end
-Expected<void> ask(const std::atomic<bool>* stop) {
-  if (stop != nullptr && stop->load(std::memory_order_relaxed)) {
-    return fail(ErrorCode::kInterrupted, "interrupted: nothing has moved");
-  }
-  return {};
-}
-
 /// Reads on to the program's end and checks every block.
 Expected<void> check_rest(gcode::Reader& reader, TravelCheck& check,
                           const std::atomic<bool>* stop) {
   for (;;) {
-    TWIN_CHECK(ask(stop));
+    TWIN_CHECK(check_wish(stop, kNothingMoved));
     TWIN_TRY(const std::optional<gcode::Block> block, reader.next());
     if (!block) {
       return {};
@@ -140,15 +134,15 @@ Expected<Estimate> estimate_program(const gcode::ProgramText& program,
   Estimate estimate;
   const auto sink = [&](feedrate::PlannedSegment&& planned) {
     estimate.is_whole = estimate.is_whole && (!listen || listen(std::move(planned)));
-    return estimate.is_whole && ask(stop);
+    return estimate.is_whole && check_wish(stop, kNothingMoved);
   };
   TWIN_TRY(estimate.plan, plan_program(reader, machine, sink, [&](const gcode::Block& block) {
-             return ask(stop).and_then([&] { return check.add(block); });
+             return check_wish(stop, kNothingMoved).and_then([&] { return check.add(block); });
            }));
   if (!estimate.is_whole) {
     TWIN_CHECK(check_rest(reader, check, stop));
   }
-  TWIN_CHECK(ask(stop));
+  TWIN_CHECK(check_wish(stop, kNothingMoved));
   estimate.program = check.figures();
   estimate.program.lines = reader.line();
   return estimate;

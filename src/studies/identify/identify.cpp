@@ -7,6 +7,7 @@
 #include <functional>
 #include <mutex>
 
+#include "core/stop_wish.hpp"
 #include "studies/identify/axis_model.hpp"
 #include "studies/identify/parallel_for.hpp"
 
@@ -152,9 +153,7 @@ Expected<Identification> identify(const std::vector<Recording>& recordings,
     result.machine.table.axis[axis] = result.axis[axis]->machine.table.axis[axis];
     result.machine.servo[axis] = result.axis[axis]->machine.servo[axis];
   }
-  if (options.stop != nullptr && options.stop->load()) {
-    return fail(ErrorCode::kInterrupted, "interrupted: nothing was written");
-  }
+  TWIN_CHECK(check_wish(options.stop, "interrupted: nothing was written"));
   result.predictions = predict(recordings, result.machine);
   note_poor_predictions(result);
   return result;

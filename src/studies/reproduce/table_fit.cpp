@@ -15,6 +15,7 @@
 #include "config/find_file.hpp"
 #include "config/machine_file.hpp"
 #include "core/must_finish.hpp"
+#include "core/stop_wish.hpp"
 #include "core/units.hpp"
 #include "studies/identify/minimise.hpp"
 #include "studies/identify/parallel_for.hpp"
@@ -190,13 +191,6 @@ Expected<MachineFile> fit_planning(const Rows& rows, const MachineFile& start) {
   return result ? with_planning_kf(start, kf) : result;
 }
 
-/// @returns an error where the caller wants to end
-Expected<void> ask(const std::atomic<bool>* stop) {
-  return stop != nullptr && stop->load()
-             ? Expected<void>(fail(ErrorCode::kInterrupted, "interrupted: nothing was written"))
-             : Expected<void>();
-}
-
 /// A parameter whose move by a tenth of its range raises the cost by less says nothing: the same
 /// move of the phases alone does as much.
 constexpr double kLeastRise = 0.1;
@@ -236,7 +230,7 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
   TableFit fit;
   std::vector<double> x = parameters.units(planned);
   fit.cost_before = cost(x, kNear);
-  TWIN_CHECK(ask(options.stop));
+  TWIN_CHECK(check_wish(options.stop, "interrupted: nothing was written"));
   const MustFinish finish;  // from here on there is a best so far
   double done = 0.0;
   for (const Stage& stage : {kWide, kNear}) {
