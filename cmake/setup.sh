@@ -103,16 +103,20 @@ install_missing() {
   logged install_packages "${names[@]}"
 }
 
-# build <program|tests|fuzz> <ninja target>
+# build <program|tests|asan|tsan|fuzz> <ninja target>
 #
 # One tree and one set of flags for the program and its tests; the programs of libFuzzer are clang's, with sanitizers, in
-# a tree of their own ($TWIN_BUILD of tests/fuzz/run). One at a time. When nothing has changed it costs one
+# a tree of their own ($TWIN_BUILD of tests/fuzz/run), and so are tests with sanitizers. One at a time. When nothing has changed it costs one
 # `ninja -n`.
 build() {
-  local use=$1 target=$2 configured= options
+  local use=$1 target=$2 configured= options packages=$1
   case $use in
     program) options=(-DTWIN_BUILD_TESTS=OFF) ;;
     tests) options=(-DTWIN_BUILD_TESTS=ON) ;;
+    asan | tsan)
+      options=(--preset "$use" -DTWIN_BUILD_TESTS=ON)
+      packages=tests
+      ;;
     fuzz)
       options=(-DTWIN_BUILD_TESTS=OFF -DTWIN_BUILD_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo
         "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -gline-tables-only -DEIGEN_NO_DEBUG" -DTWIN_SANITIZE=address,undefined,fuzzer-no-link)
@@ -130,7 +134,7 @@ build() {
     flock 9
   fi
   if [[ ! $TWIN_BUILD/.installed_$use -nt $TWIN_ROOT/cmake/packages.txt ]]; then
-    install_missing "$use"
+    install_missing "$packages"
     touch "$TWIN_BUILD/.installed_$use"
   fi
   [[ -f $TWIN_BUILD/build.ninja ]] && configured=yes

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "hal/ideal/ideal_machine.hpp"
 #include "runtime/set_points.hpp"
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/support/program_text.hpp"
@@ -109,6 +113,87 @@ TEST_F(FoundProgram, ZigzagsOfMicrometresKeepTheNormalAccelerationWhereTheJerkIs
       ASSERT_LE(normal.norm(), 1.01 * 300.0) << "period " << i;
     }
   }
+}
+
+TEST_F(FoundProgram, TurnsBackAThousandthOfAMicrometreApartKeepTheJerk) {
+  request.machine.path.planner = Planner::kPaper;
+  request.machine.limits.acceleration = 555996.0;
+  request.machine.period = 0.25e-3;
+  std::string text = "G1 F240\n";
+  for (int i = 0; i < 8; ++i) {
+    text += "G1 X-0.000088\nG1 X0.000015\n";
+  }
+  const auto steps = steps_of(follow(text + "G1 X-0.016420\nG1 X0.000090\nM30\n"));
+  const double t3 = std::pow(period(), 3);
+  for (std::size_t i = 2; i < steps.size(); ++i) {
+    const Vec3 jerk = (steps[i] - 2.0 * steps[i - 1] + steps[i - 2]) / t3;
+    ASSERT_LE(jerk.norm(), 1.2 * request.machine.limits.jerk) << "period " << i;
+  }
+}
+
+TEST_F(FoundProgram, ACornerKeepsTheAccelerationWhereTheJerkReachesItWithinAPeriod) {
+  request.machine.path.planner = Planner::kPaper;
+  request.machine.limits.acceleration = 245.0;
+  request.machine.limits.jerk = 26348571.0;
+  request.machine.period = 0.5e-3;
+  for (const char* end : {"Y0.001", "X0 Y0.0005", "X0 Y0.00001"}) {
+    const auto steps =
+        steps_of(follow(std::string("G1 F240\nG1 X0.001026\nG1 ") + end + "\nM30\n"));
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+      const double acceleration = (steps[i] - steps[i - 1]).norm() / (period() * period());
+      ASSERT_LE(acceleration, 1.02 * std::sqrt(2.0) * 245.0) << end << ", period " << i;
+      const Vec3 way = steps[i] + steps[i - 1];
+      const double normal = 2.0 * steps[i - 1].cross(steps[i]).norm() / way.norm();
+      ASSERT_LE(way.norm() > 0.0 ? normal : 0.0, 1.02 * 245.0 * period() * period())
+          << end << ", period " << i;
+    }
+  }
+}
+
+TEST_F(FoundProgram, AHoldATenthOfANanometreBeforeASegmentsEndGoesOnFromThere) {
+  request.machine.path.planner = Planner::kPaper;
+  request.machine.period = 0.125e-3;
+  const auto points = SetPoints::open(
+      gcode::ProgramText::from_text("G1 F7636.050355\nG01 X0.001225 Y-0.000248\nG01 X0.002376 "
+                                    "Y-0.000735\nG01 X0.003408 Y-0.001441\n",
+                                    "hold"),
+      request.machine);
+  Vec3 last = Vec3::Zero();
+  double longest = 0.0;  // step of the first periods after the rest [mm]
+  std::size_t periods = 0;
+  for (motion::SetPoint point; periods < 100000 && points->next(point); ++periods) {
+    const double time = static_cast<double>(periods + 1) * period();
+    points->set_override(time < 0.00625 ? 105.714286 : time < 0.0166 ? 0.0 : 105.714286);
+    if (time > 0.0165 && time < 0.0166 + 1.5 * period()) {
+      longest = std::max(longest, (point.position - last).norm());
+    }
+    last = point.position;
+  }
+  EXPECT_LT(periods, 1000U);
+  EXPECT_LE(longest, request.machine.limits.jerk * std::pow(period(), 3));
+}
+
+TEST_F(FoundProgram, SegmentsShorterThanAPeriodOfTheLargestFeedrateDoNotStopAMotionInRealTime) {
+  hal::ideal::IdealMachine machine;
+  request.machine.path.planner = Planner::kPaper;
+  request.machine.path.look_ahead = 4;
+  request.is_wall_clock = true;
+  request.machine.realtime.priority = 0;
+  request.machine.realtime.max_late_periods = 1000000;  // however busy the computer is
+  request.machine.realtime.max_stall = 100.0;
+  std::string text = "G1 F3000 X0.05\n";
+  for (int i = 1; i <= 60; ++i) {
+    text += fmt::format("G1 X{:.6f} Y{:.6f}\n", 0.05 + 4e-5 * (i / 2), 4e-5 * ((i + 1) / 2));
+  }
+  request.program = test::text_of(folder.put("crawl.nc", text + "G1 X0.1 Y0.05\n"));
+  request.is_wall_clock = false;
+  const auto lockstep = run(&machine);
+  request.is_wall_clock = true;
+  request.directory = folder / "wall_clock";
+  const auto wall_clock = run(&machine);
+  ASSERT_TRUE(lockstep && wall_clock && !wall_clock->failure);
+  EXPECT_LT(wall_clock->summary.run->machining_time,
+            2.0 * lockstep->summary.run->machining_time + 0.1);
 }
 
 }  // namespace found_programs_test
