@@ -9,6 +9,8 @@
 #include "twin/plan.hpp"
 #include "twin/program.hpp"
 #include "twin/run.hpp"
+#include "twin/servo.hpp"
+#include "twin/set_point.hpp"
 #include "twin/settings.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
