@@ -33,6 +33,7 @@ void bind_trace(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
 void bind_plant(pybind11::module_& module);
+void bind_studies(pybind11::module_& module);
 void bind_set_points(pybind11::module_& module);
 
 }  // namespace twin::python

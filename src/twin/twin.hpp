@@ -12,6 +12,7 @@
 #include "twin/servo.hpp"
 #include "twin/set_point.hpp"
 #include "twin/settings.hpp"
+#include "twin/studies.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
 #include "twin/video.hpp"

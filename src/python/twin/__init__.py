@@ -11,7 +11,10 @@ twin.Error if a program, a file or a setting is wrong; it knows file, line and c
 may be called from several threads at once, and Ctrl-C ends each: a machine that moves brakes first.
 """
 
+import json
 import os
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
 
 from . import _twin
 from ._error import Error
@@ -33,6 +36,9 @@ __all__ = [
     "SetPoints",
     "Trace",
     "check",
+    "circle",
+    "compare",
+    "convert",
     "identify",
     "plan",
     "run",
@@ -157,6 +163,65 @@ def identify(
         seed=seed,
     )
     return Identification(found, Machine(found.settings))
+
+
+def compare(programs, machines, *, hal="mujoco", feedrate_mm_per_min=None, workers=None):
+    """Runs every program on every machine, as many at once as there are cores.
+
+    Args:
+        programs: a program or several, as run() has them
+        machines: a dict of names and Machines; what differs in them is compared
+        hal, feedrate_mm_per_min: as run() has them
+        workers: runs at a time; None: as many as there are cores
+
+    Returns:
+        a list of dicts, one a run, programs before machines, each with the names "program" and
+        "machine", the "summary" and the "failure" (an Error or None)
+    """
+    many = [programs] if isinstance(programs, (str, os.PathLike, Program)) else list(programs)
+    cases = [(program, name) for program in many for name in machines]
+
+    def row(case):
+        program, name = case
+        result = run(program, machines[name], hal=hal, feedrate_mm_per_min=feedrate_mm_per_min,
+                     keep_trace=False)
+        return {"program": result.summary["program"], "machine": name, "summary": result.summary,
+                "failure": result.failure}
+
+    with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
+        return list(pool.map(row, cases))
+
+
+def circle(machine="xy_table.toml", *, radius_mm=20.0, feedrate_mm_per_min=3000.0, folder=None):
+    """Runs a circle in both senses on the simulated table: the circular test of ISO 230-4.
+
+    Args:
+        machine: a Machine, or the name of a machine file
+        radius_mm, feedrate_mm_per_min: of the circle about X0 Y0
+        folder: gets programs, traces and circle.json; None: no files are left
+
+    Returns:
+        dict as in circle.json
+    """
+    with tempfile.TemporaryDirectory() as unused:
+        _, found = _twin.circle(_settings(machine), radius_mm,
+                                feedrate_mm_per_min / _SECONDS_PER_MINUTE,
+                                unused if folder is None else os.fspath(folder))
+    return json.loads(found)
+
+
+def convert(program, to, machine="xy_table.toml", *, feedrate_mm_per_min=None):
+    """A program in the dialect of another control, its short blocks fitted by NURBS.
+
+    Args:
+        program, machine, feedrate_mm_per_min: as check() has them
+        to: "g5.2", "g6.2", "fanuc" or "bspline"
+
+    Returns:
+        str, the text of the new program, which was read back and held against the old one
+    """
+    text, _ = _twin.convert(_program(program, feedrate_mm_per_min), _settings(machine), to)
+    return text
 
 
 class Plant(_twin.Plant):

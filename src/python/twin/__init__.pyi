@@ -227,6 +227,28 @@ def run(
     wall_clock: bool = False,
     folder: Optional[_Path] = None,
 ) -> Result: ...
+def compare(
+    programs: Union[_Path, Program, Iterable[Union[_Path, Program]]],
+    machines: Mapping[str, Machine],
+    *,
+    hal: _Hal = "mujoco",
+    feedrate_mm_per_min: Optional[float] = None,
+    workers: Optional[int] = None,
+) -> list[dict[str, Any]]: ...
+def circle(
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    radius_mm: float = 20.0,
+    feedrate_mm_per_min: float = 3000.0,
+    folder: Optional[_Path] = None,
+) -> dict[str, Any]: ...
+def convert(
+    program: Union[_Path, Program],
+    to: Literal["g5.2", "g6.2", "fanuc", "bspline"],
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    feedrate_mm_per_min: Optional[float] = None,
+) -> str: ...
 def identify(
     traces: Union[_Path, Iterable[_Path]],
     machine: Union[_Path, Machine] = "xy_table.toml",
