@@ -34,6 +34,7 @@ void bind_run(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
 void bind_plant(pybind11::module_& module);
 void bind_studies(pybind11::module_& module);
+void bind_batch(pybind11::module_& module);
 void bind_set_points(pybind11::module_& module);
 
 }  // namespace twin::python

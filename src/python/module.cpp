@@ -10,5 +10,6 @@ PYBIND11_MODULE(_twin, module) {
   twin::python::bind_identify(module);
   twin::python::bind_plant(module);
   twin::python::bind_studies(module);
+  twin::python::bind_batch(module);
   twin::python::bind_set_points(module);
 }

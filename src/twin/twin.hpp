@@ -1,6 +1,7 @@
 #pragma once
 
 /// Everything that the library has for other programs.
+#include "twin/batch.hpp"
 #include "twin/error.hpp"
 #include "twin/identify.hpp"
 #include "twin/interpolator.hpp"

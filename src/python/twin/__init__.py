@@ -22,6 +22,8 @@ from ._machine import Machine, Section
 from ._results import Identification, Result, Trace
 from ._twin import Panel, Plan, Program, SetPoint
 
+__version__ = _twin.version
+
 __all__ = [
     "Error",
     "Identification",

@@ -6,6 +6,8 @@ from typing import Any, Literal, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
+__version__: str
+
 _Path = Union[str, "os.PathLike[str]"]
 _Value = Union[float, str, bool, Sequence[float]]
 _Vector2 = tuple[float, float]
