@@ -45,6 +45,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.feedrate = request_.feedrate;
   run.directory = request_.files == Files::kWritten ? request_.folder : std::filesystem::path();
   run.sinks = request_.sinks;
+  run.servo = request_.servo;
   run.is_wall_clock = is_on_wall_clock();
   run.overrides = request_.overrides;
   run.until = request_.until;
