@@ -31,10 +31,6 @@ double highest_feedrate(const Case& made) {
   return exceeds ? limit : std::min(limit, programmed * percent / 100.0);
 }
 
-/// A way beyond a set point and back that is shorter than this cannot be told from none, but for what
-/// it seems to be as an acceleration [mm].
-constexpr double kUnseen = 1e-6;
-
 /// Where the programmed path turns back: ends of blocks.
 std::vector<Vec3> turns_back(const MadeProgram& program) {
   std::vector<Vec3> places;
@@ -94,10 +90,19 @@ class Peaks {
     share = std::max(std::isnan(share) ? 0.0 : share, value / allowed);
   }
 
+  /// Whether the path may turn back within a step of these points, unseen by any of them: nobody
+  /// can tell how far it went there.
   bool may_turn_back(std::span<const Vec3, 6> p) const {
+    if (turns_back_.empty()) {
+      return false;
+    }
+    double step = 0.0;
+    for (std::size_t i = 1; i < p.size(); ++i) {
+      step = std::max(step, (p[i] - p[i - 1]).norm());
+    }
     return std::any_of(turns_back_.begin(), turns_back_.end(), [&](const Vec3& place) {
       return std::any_of(p.begin(), p.end(),
-                         [&](const Vec3& point) { return (point - place).norm() < kUnseen; });
+                         [&](const Vec3& point) { return (point - place).norm() <= step; });
     });
   }
 
