@@ -86,11 +86,17 @@ void add_interpolator(List& list, motion::InterpolatorSettings& i, double& perio
 
 void add_servo(List& list, const std::string& section, motion::Gains& g) {
   list.push_back({section, "kp", "per_s", &g.kp, 0.0, 1e5, "position gain"});
-  list.push_back({section, "kd", "", &g.kd, 0.0, 1e3, "derivative gain"});
-  list.push_back({section, "kf", "", &g.kf, 0.0, 10.0, "velocity feedforward"});
+  list.push_back({section, "kd", "", &g.kd, -1e3, 1e3, "derivative gain"});
+  list.push_back({section, "kf", "", &g.kf, -10.0, 10.0, "velocity feedforward"});
   list.push_back({section, "ka", "s", &g.ka, -1.0, 1.0, "acceleration feedforward"});
   list.push_back({section, "trim", "V", &g.trim_V, -10.0, 10.0,
                   "added to the drive command against its offset"});
+  list.push_back(
+      {section, "kv", "", &g.kv, 0.0, 1e3, "velocity feedback, for a drive in torque mode"});
+  list.push_back({section, "kv_periods", "", &g.kv_periods, 1, motion::kMostVelocityPeriods,
+                  "over which the measured velocity is a mean"});
+  list.push_back({section, "command_delay", "ms", &g.command_delay, 0.0, 50.0,
+                  "how late the set point reaches the position loop", 1e3});
 }
 
 void add_home(List& list, const std::string& section, HomeSettings& home) {
