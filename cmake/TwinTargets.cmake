@@ -39,8 +39,6 @@ if(TWIN_SANITIZE)
     # The address sanitizer finds what these checks find; at every element of Eigen they take half of the time.
     target_compile_options(twin_options INTERFACE -fno-sanitize=null,alignment)
   endif()
-  # Eigen would allocate in another way under a sanitizer than in libpagmo, which frees what this program allocates.
-  target_compile_definitions(twin_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # Compiles a target's sources as one unit, or in batches of $1 sources: nine tenths of a source's time are its headers.

@@ -118,8 +118,9 @@ struct CircleArguments {
 };
 
 struct IdentifyArguments {
-  std::vector<std::string> traces;  ///< CSV files
-  bool has_tables = false;          ///< the published tables take the place of traces
+  std::vector<std::string> traces;      ///< CSV files
+  std::vector<std::string> validating;  ///< CSV files that are predicted only
+  bool has_tables = false;              ///< the published tables take the place of traces
   MachineArguments machine;
   std::string columns;                     ///< SIGNAL=COLUMN[:UNIT],...
   std::filesystem::path file;              ///< machine file to write; empty: one below renders
@@ -127,6 +128,7 @@ struct IdentifyArguments {
   std::vector<std::string> freed;          ///< keys that are fitted though they would be held
   std::uint32_t seed = 1;                  ///< of the global search
   std::optional<std::size_t> evaluations;  ///< simulations of the global search
+  bool has_plots = true;                   ///< of the predictions
   Verbosity verbosity = Verbosity::kNormal;
 };
 

@@ -274,8 +274,13 @@ void add_options(CLI::App& command, IdentifyArguments& identify) {
   command
       .add_option("--columns", identify.columns,
                   "Columns of foreign traces, as in t=time:ms,x_cmd=ref,x_meas=pos:um; signals t, "
-                  "x_cmd, x_meas, x_V, y_cmd, y_meas, y_V; units s ms us m mm um V mV")
+                  "x_cmd, x_meas, x_V, x_force, x_torque and those of y; units s ms us, 2ms of a "
+                  "counter, m mm um, V mV mm/s m/s rpm, N kN, N_m")
       ->type_name("SIGNAL=COLUMN[:UNIT],...");
+  add_list(command, "--validate", identify.validating,
+           "Traces that are predicted and not fitted; without, the end of each trace is held out")
+      ->type_name("TRACE.csv");
+  add_no_plots(command, identify.has_plots);
   command
       .add_option("--out", identify.file,
                   "Machine file to write; identify.json is put beside it "
