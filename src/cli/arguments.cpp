@@ -157,6 +157,11 @@ class ArgumentParser {
     add<ConvertArguments>(
         app_, "convert",
         "Write a program as NURBS blocks of a control; runs of short blocks are fitted");
+    add<BatchArguments>(app_, "batch",
+                        "Run a file of jobs on all cores, into a store that keeps every result");
+    add<SweepArguments>(
+        app_, "sweep",
+        "Run a program with many settings: a table, a page with the best of them, a machine file");
     add_rig_commands();
   }
 

@@ -148,6 +148,27 @@ struct ConvertArguments {
   Verbosity verbosity = Verbosity::kNormal;
 };
 
+/// How many runs go on, and where their results are kept.
+struct BatchRunArguments {
+  std::filesystem::path store;  ///< --store
+  unsigned workers = 0;         ///< --jobs; 0: as many as there are cores
+  std::size_t shard = 0;        ///< --shard I/N
+  std::size_t shards = 1;
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct BatchArguments {
+  std::filesystem::path jobs;  ///< JSON lines
+  BatchRunArguments run;
+};
+
+struct SweepArguments {
+  std::filesystem::path sweep;   ///< TOML
+  std::filesystem::path folder;  ///< --out; empty: one below renders
+  bool is_listed_only = false;   ///< --list: the jobs go to standard output, nothing is run
+  BatchRunArguments run;
+};
+
 struct RigProbeArguments {
   MachineArguments machine;
   RigArguments rig;
@@ -195,8 +216,9 @@ struct TextArguments {
 using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
                  ReportArguments, CompareArguments, ReproduceArguments, CircleArguments,
-                 IdentifyArguments, ConvertArguments, RigProbeArguments, RigMonitorArguments,
-                 RigCheckArguments, RigJogArguments, RigHomeArguments, RigEmulateArguments>;
+                 IdentifyArguments, ConvertArguments, BatchArguments, SweepArguments,
+                 RigProbeArguments, RigMonitorArguments, RigCheckArguments, RigJogArguments,
+                 RigHomeArguments, RigEmulateArguments>;
 
 /// Reads a command line.
 ///

@@ -1,6 +1,8 @@
 #include "cli/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "core/units.hpp"
@@ -338,6 +340,63 @@ void add_options(CLI::App& command, ConvertArguments& convert) {
   command.add_option("--out", convert.file, "File to write [renders/PROGRAM/PROGRAM.DIALECT.nc]")
       ->type_name("FILE");
   add_quiet(command, convert.verbosity);
+}
+
+namespace {
+
+/// "I/N" as a shard: part I of N, counted from 0.
+std::string take_shard(const std::string& text, BatchRunArguments& run) {
+  std::size_t shard = 0;
+  std::size_t shards = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard);
+  const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second =
+      has_slash ? std::from_chars(first.ptr + 1, end, shards) : std::from_chars_result{end, {}};
+  if (!has_slash || second.ec != std::errc() || second.ptr != end || shard >= shards) {
+    return text + " is no shard; expected I/N with I from 0 to N - 1, as in 0/4";
+  }
+  run.shard = shard;
+  run.shards = shards;
+  return {};
+}
+
+void add_batch_run(CLI::App& command, BatchRunArguments& run) {
+  command.add_option("--jobs", run.workers, "Runs at a time [as many as there are cores]")
+      ->check(CLI::Range(1U, 1024U))
+      ->type_name("J");
+  add_quiet(command, run.verbosity);
+}
+
+}  // namespace
+
+void add_options(CLI::App& command, BatchArguments& batch) {
+  command.add_option("jobs", batch.jobs, "Jobs: JSON lines, a run each")
+      ->required()
+      ->type_name("JOBS.jsonl");
+  command
+      .add_option("--store", batch.run.store,
+                  "Folder of the results; what it holds is not computed again")
+      ->required()
+      ->type_name("DIR");
+  command
+      .add_option("--shard", "Only every N-th job, from number I on: one part of N machines' work")
+      ->check([&batch](const std::string& text) { return take_shard(text, batch.run); })
+      ->type_name("I/N");
+  add_batch_run(command, batch.run);
+}
+
+void add_options(CLI::App& command, SweepArguments& sweep) {
+  command.add_option("sweep", sweep.sweep, "What is varied: a TOML file, see docs/manual.md")
+      ->required()
+      ->type_name("SWEEP.toml");
+  command.add_flag("--list", sweep.is_listed_only,
+                   "Write the jobs as JSON lines to standard output; run nothing");
+  command.add_option("--store", sweep.run.store, "Folder of the results [OUT/store]")
+      ->type_name("DIR");
+  command.add_option("--out", sweep.folder, "Folder of table and page [renders/SWEEP]")
+      ->type_name("DIR");
+  add_batch_run(command, sweep.run);
 }
 
 void add_options(CLI::App& command, RigProbeArguments& probe) {

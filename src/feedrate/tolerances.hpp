@@ -21,8 +21,9 @@ inline constexpr double kDistanceRounding = 1e-9;
 /// A stop that would end this far beyond a place of rest ends there [mm].
 ///
 /// A motion that follows phases of the plan ends where their sums do, some 1e-10 mm from the place
-/// that was planned for; a thousandth of a micrometre is more than that and still nothing.
-inline constexpr double kRestRounding = 1e-6;
+/// that was planned for; a hundredth of a nanometre is more than that, and as an acceleration it is
+/// nothing: 0.01 mm/s^2 at a period of 1 ms.
+inline constexpr double kRestRounding = 1e-8;
 
 /// How closely an ascent touches the corner of a limit [mm].
 ///

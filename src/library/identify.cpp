@@ -18,6 +18,7 @@ Identification identify(const std::vector<std::string>& traces, const Settings& 
   fit.seed = options.seed;
   fit.fixed = value_of(inner::full_keys(options.fixed, machine));
   fit.freed = value_of(inner::full_keys(options.freed, machine));
+  fit.stop = options.stop;
   fit.progress = options.progress;
   const auto columns = value_of(inner::parse_columns(options.columns));
   std::vector<inner::Recording> recordings;

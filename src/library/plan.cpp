@@ -5,11 +5,11 @@
 
 namespace twin {
 
-Plan plan(const Program& program, const Settings& settings) {
+Plan plan(const Program& program, const Settings& settings, const std::atomic<bool>* stop) {
   const auto& data = Inside::of(program);
   const config::MachineFile& machine = Inside::of(settings);
-  const auto estimate = value_of(
-      runtime::estimate_program(data.source, {.feedrate = data.feedrate}, machine, nullptr));
+  const auto estimate =
+      value_of(runtime::estimate_program(data.source, {.feedrate = data.feedrate}, machine, stop));
   return Inside::plan(program, settings, estimate.plan);
 }
 
@@ -29,9 +29,9 @@ Plan Inside::plan(const Program& program, const Settings& settings,
   return plan;
 }
 
-double Plan::bound() const {
+double Plan::bound(const std::atomic<bool>* stop) const {
   const auto& data = Inside::of(program_);
-  return value_of(runtime::time_bound(data.source, Inside::of(settings_), data.feedrate));
+  return value_of(runtime::time_bound(data.source, Inside::of(settings_), data.feedrate, stop));
 }
 
 }  // namespace twin

@@ -32,9 +32,9 @@ Program Program::with_feedrate(double feedrate) const {
 
 std::string Program::name() const { return data_->source.file().filename().string(); }
 
-ProgramFigures Program::check(const Settings& settings) const {
+ProgramFigures Program::check(const Settings& settings, const std::atomic<bool>* stop) const {
   const auto found = value_of(runtime::check_program(data_->source, {.feedrate = data_->feedrate},
-                                                     Inside::of(settings).limits));
+                                                     Inside::of(settings).limits, stop));
   ProgramFigures figures{.blocks = found.blocks, .length = found.length};
   for (std::size_t i = 0; i < 3; ++i) {
     figures.box_min[i] = found.box_min[static_cast<Eigen::Index>(i)];

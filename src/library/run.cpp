@@ -20,6 +20,7 @@ session::Request request_of(const Program& program, const Settings& settings, Ma
   request.files = options.folder.empty() ? session::Files::kNone : session::Files::kWritten;
   request.sinks = options.sinks;
   request.pace = options.is_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
+  request.servo = options.servo;
   for (const OverrideChange& change : options.overrides) {
     request.overrides.push_back({change.time, change.percent});
   }
@@ -45,6 +46,7 @@ Run run(const Program& program, const Settings& settings, Machine& machine,
   session::Session session =
       value_of(session::Session::open(request_of(program, settings, machine, options)));
   session::Attendance attendance;
+  attendance.stop = options.stop;
   if (options.panel != nullptr) {
     attendance.panel = &Inside::of(*options.panel).panel;
     attendance.stop = &Inside::of(*options.panel).stop;

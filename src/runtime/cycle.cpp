@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "motion/servo/axis_servo.hpp"
 
@@ -28,9 +29,10 @@ motion::AxisServo make_servo(const hal::Machine* machine, std::size_t axis,
 
 Cycle::Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
              const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
-             const motion::SafetySettings& safety, const Limits& limits)
+             const motion::SafetySettings& safety, const Limits& limits, Servo* servo)
     : interpolator_(interpolator),
       machine_(machine),
+      servo_(servo),
       period_(period),
       limits_(limits),
       servos_{make_servo(machine, hal::kX, gains, period),
@@ -91,19 +93,45 @@ Vec2 Cycle::true_position() const noexcept {
   return {truth.table_position[hal::kX], truth.table_position[hal::kY]};
 }
 
+/// Takes the drive commands of the caller's own loops; a trip where there are none.
+void Cycle::ask_servo() noexcept {
+  const auto array_of = [](const Vec3& v) { return std::array{v.x(), v.y(), v.z()}; };
+  const SetPoint point{.time = time(),
+                       .position = array_of(set_point_.position),
+                       .velocity = array_of(set_point_.velocity),
+                       .acceleration = array_of(set_point_.acceleration),
+                       .feedrate = set_point_.feedrate,
+                       .segment = set_point_.segment,
+                       .line = set_point_.line};
+  const auto volts = servo_->volts(point, {measured_.x(), measured_.y()});
+  for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
+    if (!volts || !std::isfinite((*volts)[i])) {
+      trip_ = stamped({.kind = motion::Kind::kServoFailed, .axis = volts ? i : motion::kNoAxis});
+      return;
+    }
+    outputs_.volts[i] = std::clamp((*volts)[i], -motion::kMaxVolts, motion::kMaxVolts);
+    is_saturated_[i] = outputs_.volts[i] != (*volts)[i];
+  }
+}
+
 /// Counts to drive commands.
 void Cycle::close_loops() noexcept {
   measured_ = position_of_counts();
+  table_ = measured_;
+  outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
+                                 set_point_.position.z()};
+  if (servo_ != nullptr) {
+    ask_servo();
+    return;
+  }
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     outputs_.volts[i] = servos_[i].update({.position = set_point_.position[k],
                                            .velocity = set_point_.velocity[k],
                                            .acceleration = set_point_.acceleration[k]},
                                           measured_[k]);
+    is_saturated_[i] = servos_[i].is_saturated();
   }
-  outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
-                                 set_point_.position.z()};
-  table_ = measured_;
 }
 
 /// Lets the monitors look; false when the outputs must be made safe.
@@ -122,7 +150,7 @@ bool Cycle::is_safe() noexcept {
                 .measured = measured_[k],
                 .counts = inputs_.counts[i],
                 .volts = outputs_.volts[i],
-                .is_saturated = servos_[i].is_saturated(),
+                .is_saturated = is_saturated_[i],
                 .servo_ready = inputs_.servo_ready[i],
                 .alarm = inputs_.alarm[i],
                 .limit_positive = inputs_.limit_positive[i],

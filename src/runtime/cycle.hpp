@@ -10,6 +10,7 @@
 #include "motion/safety/monitors.hpp"
 #include "motion/servo/axis_servo.hpp"
 #include "results/trace/sample.hpp"
+#include "twin/servo.hpp"
 
 namespace twin::runtime {
 
@@ -35,9 +36,11 @@ class Cycle {
   /// @param machine   an active machine; null to compute set points without a machine
   /// @param period    interpolation period T [s]
   /// @param limits    largest feedrate and travel of the machine
+  /// @param servo     position loops in place of those with these gains; may be null
   Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
         const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
-        const motion::SafetySettings& safety = {}, const Limits& limits = {});
+        const motion::SafetySettings& safety = {}, const Limits& limits = {},
+        Servo* servo = nullptr);
 
   /// Reads the inputs of the machine. Real-time safe.
   /// @param interval  time since the last read [s]
@@ -87,6 +90,7 @@ class Cycle {
   Vec2 position_of_counts() const noexcept;
   Vec2 true_position() const noexcept;
   void close_loops() noexcept;
+  void ask_servo() noexcept;
   bool is_safe() noexcept;
   bool is_switched_off() const noexcept { return trip_ && is_immediate(*trip_); }
   void keep_in_travel(const motion::SetPoint& last) noexcept;
@@ -95,9 +99,11 @@ class Cycle {
 
   motion::Interpolator& interpolator_;
   hal::Machine* machine_;
+  Servo* servo_;
   double period_;
   Limits limits_;
   std::array<motion::AxisServo, hal::kServoAxes> servos_;
+  std::array<bool, hal::kServoAxes> is_saturated_{};
   std::optional<motion::Monitors> monitors_;
   std::optional<motion::Trip> trip_;
   hal::Inputs inputs_{};

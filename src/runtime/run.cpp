@@ -73,7 +73,7 @@ class Run {
                                                       : SampleQueue::Waiting::kAwake),
         interpolator_(planning_->supply(), request.machine.period, request.machine.interpolation),
         cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period,
-               request.machine.safety, request.machine.limits),
+               request.machine.safety, request.machine.limits, request.servo),
         feed_(interpolator_, planning_->supply(), planning_->replanning(), panel_,
               feed_options(request, first_percent_)) {
     if (outlook.is_kept) {

@@ -20,6 +20,7 @@
 #include "runtime/motion.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
+#include "twin/servo.hpp"
 #include "twin/trace.hpp"
 
 namespace twin::runtime {
@@ -29,6 +30,7 @@ struct RunTask {
   gcode::ProgramText program;
   config::MachineFile machine;
   hal::Machine* hal = nullptr;     ///< unconfigured machine; null: compute set points only
+  Servo* servo = nullptr;          ///< position loops in place of the machine file's; may be null
   std::optional<double> feedrate;  ///< replaces the program's F words [mm/s]
 };
 

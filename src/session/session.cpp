@@ -54,6 +54,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
                  request_.columns, hal_ == nullptr ? results::Layout::kPlan : results::Layout::kRun,
                  hal_ != nullptr && hal_->info().has_forces));
   }
+  run.servo = request_.servo;
   run.is_wall_clock = is_on_wall_clock();
   run.overrides = request_.overrides;
   run.until = request_.until;

@@ -17,6 +17,7 @@
 #include "runtime/run.hpp"
 #include "session/machine.hpp"
 #include "session/pictures.hpp"
+#include "twin/servo.hpp"
 #include "twin/trace.hpp"
 
 /// Runs one program on one machine, from the machine file to the pictures. The command line, the
@@ -49,7 +50,8 @@ struct Request {
   Files files = Files::kWritten;
   std::vector<TraceSink*> sinks{};  ///< get the rows of the trace, besides the files
   bool has_trace = true;            ///< whether the rows go to trace.csv where files are written
-  std::string columns{};  ///< of the trace, as choose_columns() takes them; empty: default
+  std::string columns{};   ///< of the trace, as choose_columns() takes them; empty: default
+  Servo* servo = nullptr;  ///< position loops in place of the machine file's; may be null
   Pace pace = Pace::kOwn;
   std::vector<runtime::OverrideChange> overrides{};  ///< feed override at times of the motion
   runtime::Until until{};                            ///< ends the motion early; may be empty

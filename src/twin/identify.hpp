@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,6 +21,8 @@ struct IdentifyOptions {
   std::vector<std::string> freed{};  ///< keys that are fitted though they would be held
   std::size_t evaluations = 0;       ///< simulations of the global search; 0: as many as usual
   std::uint32_t seed = 1;            ///< of the global search; the same seed gives the same result
+  /// Ends the fit early with a Failure of kInterrupted when another thread sets it; may be null.
+  const std::atomic<bool>* stop = nullptr;
   std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; may be empty
 };
 

@@ -1,26 +1,14 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "twin/export.hpp"
 #include "twin/program.hpp"
+#include "twin/set_point.hpp"
 #include "twin/settings.hpp"
 
 namespace twin {
-
-/// What a servo loop follows in one interpolation period: the place, and its derivatives in time.
-struct SetPoint {
-  double time = 0.0;                     ///< since the first set point [s]
-  std::array<double, 3> position{};      ///< x, y, z [mm]
-  std::array<double, 3> velocity{};      ///< x, y, z [mm/s]
-  std::array<double, 3> acceleration{};  ///< x, y, z [mm/s^2]
-  double feedrate = 0.0;                 ///< speed along the path [mm/s]
-  std::int64_t segment = 0;              ///< number of the planned segment, from 0
-  std::int64_t line = 0;                 ///< line of the NC program, from 1
-};
 
 /// Computes the set points of a program, one for each interpolation period, for a control loop of
 /// the caller's own. No machine moves, and no file is written.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -35,8 +36,9 @@ class TWIN_EXPORT Plan {
   /// Lower bound of the time for this path: the time-optimal motion with the same limits of
   /// feedrate and acceleration, but without a limit of jerk [s]. Plans the program once more, and
   /// so takes longer than plan() did.
-  /// @throws Failure if the program cannot be read again
-  double bound() const;
+  /// @param stop  ends the work early when it is set by another thread; may be null
+  /// @throws Failure if the program cannot be read again, or kInterrupted
+  double bound(const std::atomic<bool>* stop = nullptr) const;
 
  private:
   friend struct Inside;
@@ -55,7 +57,9 @@ class TWIN_EXPORT Plan {
 };
 
 /// Plans a whole program; nothing moves.
-/// @throws Failure if the program has an error or leaves the travel of the machine
-TWIN_EXPORT Plan plan(const Program& program, const Settings& settings);
+/// @param stop  ends the work early when it is set by another thread; may be null
+/// @throws Failure if the program has an error or leaves the travel of the machine, or kInterrupted
+TWIN_EXPORT Plan plan(const Program& program, const Settings& settings,
+                      const std::atomic<bool>* stop = nullptr);
 
 }  // namespace twin

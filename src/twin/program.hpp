@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -50,9 +51,10 @@ class TWIN_EXPORT Program {
   /// Reads the whole program and checks that it stays within the travel of the machine. Nothing is
   /// planned, and nothing moves.
   /// @param settings  their [limits] have the travel
+  /// @param stop      ends the work early when it is set by another thread; may be null
   /// @returns number of blocks, length and bounding box
-  /// @throws Failure for the first error in the program
-  ProgramFigures check(const Settings& settings) const;
+  /// @throws Failure for the first error in the program, or kInterrupted
+  ProgramFigures check(const Settings& settings, const std::atomic<bool>* stop = nullptr) const;
 
  private:
   friend struct Inside;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "twin/export.hpp"
 #include "twin/machine.hpp"
 #include "twin/program.hpp"
+#include "twin/servo.hpp"
 #include "twin/settings.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
@@ -84,6 +86,12 @@ struct RunOptions {
   /// Operator's panel, or null. It must outlive the run. In simulated time the motion is not in
   /// step with the thread that uses the panel, so two runs with the same orders may differ.
   Panel* panel = nullptr;
+  /// Ends the run when another thread sets it: before the motion at once, then by braking to rest on
+  /// the path. Run::failure, or the Failure, says kInterrupted. May be null; a run with a panel has
+  /// Panel::stop() instead.
+  const std::atomic<bool>* stop = nullptr;
+  /// Position loops in place of those of the settings, or null. They must outlive the run.
+  Servo* servo = nullptr;
   /// Called in the thread that called run(), with the share that is done, 0 to 1.
   std::function<void(double)> progress{};
 };

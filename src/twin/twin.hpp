@@ -1,6 +1,7 @@
 #pragma once
 
 /// Everything that the library has for other programs.
+#include "twin/batch.hpp"
 #include "twin/error.hpp"
 #include "twin/identify.hpp"
 #include "twin/interpolator.hpp"
@@ -9,7 +10,10 @@
 #include "twin/plan.hpp"
 #include "twin/program.hpp"
 #include "twin/run.hpp"
+#include "twin/servo.hpp"
+#include "twin/set_point.hpp"
 #include "twin/settings.hpp"
+#include "twin/studies.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
 #include "twin/video.hpp"

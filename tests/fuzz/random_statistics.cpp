@@ -3,21 +3,46 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 namespace twin::fuzz {
 namespace {
 
-constexpr std::size_t kShownBreaches = 20;
+constexpr std::array kSizes{1.02, 1.1, 1.5, 2.0};  // upper ends of the counts by size
 
 double quantile(const std::vector<float>& sorted, double part) {
   return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
 }
 
+/// What a breach is counted as.
+std::string kind_of(const Case& made, const Breach& breach) {
+  const Limits& limits = made.machine.limits;
+  const bool is_paper = made.machine.path.planner == Planner::kPaper;
+  const bool has_axes =
+      limits.axis_feedrate.any() || limits.axis_acceleration.any() || limits.axis_jerk.any();
+  return fmt::format("{}{}{}: {}", is_paper ? "paper" : "certified",
+                     has_axes && !is_paper ? ", axis limits" : "",
+                     made.operations.empty() ? "" : ", override", breach.what);
+}
+
+void add_to(BreachKind& kind, const BreachKind& other) {
+  const bool is_new = std::all_of(kind.counts.begin(), kind.counts.end(),
+                                  [](std::uint64_t count) { return count == 0; });
+  for (std::size_t i = 0; i < kind.counts.size(); ++i) {
+    kind.counts[i] += other.counts[i];
+  }
+  if (is_new || other.largest > kind.largest) {
+    kind.largest = other.largest;
+    kind.worst = other.worst;
+  }
+  kind.first = is_new ? other.first : std::min(kind.first, other.first);
+}
+
 }  // namespace
 
-void RandomStatistics::add(std::uint64_t number, const Outcome& outcome) {
+void RandomStatistics::add(std::uint64_t number, const Case& made, const Outcome& outcome) {
   ++programs_;
   ++endings_[outcome.ending];
   set_points_ += outcome.set_points;
@@ -27,8 +52,12 @@ void RandomStatistics::add(std::uint64_t number, const Outcome& outcome) {
     }
   }
   known_ += outcome.findings.empty() && !outcome.known.empty() ? 1 : 0;
-  if (!outcome.findings.empty()) {
-    breaches_.push_back({number, outcome.findings});
+  broken_ += outcome.findings.empty() ? 0 : 1;
+  for (const Breach& breach : outcome.findings) {
+    BreachKind one{.counts = {}, .largest = breach.share, .worst = number, .first = number};
+    const auto size = std::lower_bound(kSizes.begin(), kSizes.end(), breach.share);
+    one.counts[static_cast<std::size_t>(size - kSizes.begin())] = 1;
+    add_to(kinds_[kind_of(made, breach)], one);
   }
 }
 
@@ -36,15 +65,16 @@ void RandomStatistics::add(const RandomStatistics& other) {
   programs_ += other.programs_;
   set_points_ += other.set_points_;
   known_ += other.known_;
+  broken_ += other.broken_;
   for (const auto& [ending, count] : other.endings_) {
     endings_[ending] += count;
   }
   for (std::size_t i = 0; i < kMeasures; ++i) {
     shares_[i].insert(shares_[i].end(), other.shares_[i].begin(), other.shares_[i].end());
   }
-  breaches_.insert(breaches_.end(), other.breaches_.begin(), other.breaches_.end());
-  std::sort(breaches_.begin(), breaches_.end(),
-            [](const Breach& a, const Breach& b) { return a.number < b.number; });
+  for (const auto& [name, kind] : other.kinds_) {
+    add_to(kinds_[name], kind);
+  }
 }
 
 std::string RandomStatistics::text() const {
@@ -52,12 +82,22 @@ std::string RandomStatistics::text() const {
     const auto found = endings_.find(ending);
     return found == endings_.end() ? 0 : found->second;
   };
-  std::string text = fmt::format(
-      "{} programs, {} set points: {} followed to the end, {} stopped in a hold, {} refused, {} "
-      "without end\n\n{:32} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-      programs_, set_points_, count(Ending::kWhole), count(Ending::kStopped),
-      count(Ending::kRefused), count(Ending::kNone), "share of what is allowed", "programs",
-      "median", "90 %", "99 %", "largest", "tolerated", "breaches");
+  return fmt::format(
+             "{} programs, {} set points: {} followed to the end, {} stopped in a hold, {} "
+             "refused, "
+             "{} without end\n\n",
+             programs_, set_points_, count(Ending::kWhole), count(Ending::kStopped),
+             count(Ending::kRefused), count(Ending::kNone)) +
+         limits_text() +
+         fmt::format("\n{} programs break a promise, {} more by known defects\n", broken_, known_) +
+         kinds_text();
+}
+
+/// How near each limit comes.
+std::string RandomStatistics::limits_text() const {
+  std::string text =
+      fmt::format("{:32} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "share of what is allowed",
+                  "programs", "median", "90 %", "99 %", "largest", "tolerated", "breaches");
   for (std::size_t i = 0; i < kMeasures; ++i) {
     std::vector<float> sorted = shares_[i];
     if (sorted.empty()) {
@@ -72,11 +112,21 @@ std::string RandomStatistics::text() const {
                     sorted.size(), quantile(sorted, 0.5), quantile(sorted, 0.9),
                     quantile(sorted, 0.99), sorted.back(), tolerated(measure), broken);
   }
-  text += fmt::format("\n{} programs break a promise, {} more by known defects\n", breaches_.size(),
-                      known_);
-  for (std::size_t i = 0; i < std::min(breaches_.size(), kShownBreaches); ++i) {
-    text += fmt::format("program {}: {}\n", breaches_[i].number,
-                        fmt::join(breaches_[i].findings, "; "));
+  return text;
+}
+
+/// What is broken, by kind and size.
+std::string RandomStatistics::kinds_text() const {
+  if (kinds_.empty()) {
+    return "";
+  }
+  std::string text =
+      fmt::format("\n{:64} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9}\n", "broken promises",
+                  "to 2 %", "10 %", "50 %", "100 %", "more", "largest", "program", "first");
+  for (const auto& [name, kind] : kinds_) {
+    const auto& n = kind.counts;
+    text += fmt::format("{:64} {:7} {:7} {:7} {:7} {:7} {:9.5g} {:9} {:9}\n", name, n[0], n[1],
+                        n[2], n[3], n[4], kind.largest, kind.worst, kind.first);
   }
   return text;
 }

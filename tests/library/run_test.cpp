@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -231,6 +234,44 @@ TEST(Run, AMachineThatRefusesIsAFailureBeforeAnythingMoves) {
     EXPECT_EQ(failure.error().code, ErrorCode::kMachine);
     EXPECT_STREQ(failure.what(), "the power is off");
   }
+}
+
+/// Proportional position loops, until they give nothing any more.
+class ProportionalServo final : public Servo {
+ public:
+  std::optional<std::array<double, kServoAxes>> volts(
+      const SetPoint& point, const std::array<double, kServoAxes>& measured) noexcept override {
+    if (++calls == most_calls) {
+      return std::nullopt;
+    }
+    largest_error = std::max(largest_error, std::abs(point.position[0] - measured[0]));
+    return std::array{(point.position[0] - measured[0]) * 2.0,
+                      (point.position[1] - measured[1]) * 2.0};
+  }
+  int calls = 0;
+  int most_calls = 0;
+  double largest_error = 0.0;  // [mm]
+};
+
+TEST(Run, AServoOfOnesOwnClosesTheLoops) {
+  const Settings settings = Settings().set("safety.tracking_error_mm=20");
+  ProportionalServo servo;
+  const twin::Run result =
+      run(Program::from_text(kTriangle), settings, *make_table(settings), {.servo = &servo});
+  ASSERT_FALSE(result.failure) << to_string(*result.failure);
+  EXPECT_GT(servo.calls, 1000);
+  EXPECT_NEAR(result.summary.number("tracking_error_um.x.max"), 1000.0 * servo.largest_error, 1.0);
+}
+
+TEST(Run, AServoWithoutAnAnswerSwitchesTheMachineOff) {
+  const Settings settings;
+  ProportionalServo servo;
+  servo.most_calls = 305;
+  const twin::Run result =
+      run(Program::from_text(kTriangle), settings, *make_table(settings), {.servo = &servo});
+  ASSERT_TRUE(result.failure);
+  EXPECT_THAT(result.failure->message, ::testing::HasSubstr("the servo gave no drive command"));
+  EXPECT_EQ(servo.calls, 305);
 }
 
 TEST(Run, AFaultOfTheEmulatedRigIsItsFailure) {

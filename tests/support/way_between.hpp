@@ -33,7 +33,8 @@ inline std::optional<Lengths> lengths_on_line(std::span<const Vec3, 4> p, double
   return lengths;
 }
 
-/// The same on one circle: the circle through the first, a middle and the last point.
+/// The same on one circle: the circle through the first, a middle and the last point. Nothing where
+/// two of the points are one, since there is a circle through any three.
 inline std::optional<Lengths> lengths_on_circle(std::span<const Vec3, 4> p, double off) {
   const Vec3 a = p[p.size() / 2] - p.front();
   const Vec3 b = p.back() - p.front();
@@ -54,7 +55,7 @@ inline std::optional<Lengths> lengths_on_circle(std::span<const Vec3, 4> p, doub
     const double aside = std::hypot((from_centre - height * axis).norm() - radius, height);
     const bool is_ahead = (p[i - 1] - centre).cross(from_centre).dot(axis) >= 0.0;
     const double chord = (p[i] - p[i - 1]).norm();
-    if (aside > off || !is_ahead || chord > radius) {
+    if (aside > off || !is_ahead || chord > radius || chord <= off) {
       return std::nullopt;
     }
     lengths[i - 1] = 2.0 * radius * std::asin(0.5 * chord / radius);
@@ -75,7 +76,10 @@ inline std::optional<Lengths> lengths_between(std::span<const Vec3, 6> around, d
   }
   const std::span<const Vec3, 4> window = around.subspan<1, 4>();
   const auto on_line = lengths_on_line(window, off);
-  return on_line ? on_line : lengths_on_circle(window, off);
+  if (on_line || turns_back(2) || turns_back(3)) {
+    return on_line;
+  }
+  return lengths_on_circle(window, off);
 }
 
 /// Curvature of the circle through three points times the square of the feedrate [mm/s^2].

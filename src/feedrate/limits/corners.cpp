@@ -27,18 +27,26 @@ constexpr double kJumpShare = 0.25;
 /// Share of an axis's jerk for the tangential motion beside a jump.
 constexpr double kBesideJump = 0.5;
 
-/// Least feedrate of sharp corners that hide each other, as a share of that of a single turn back.
-/// Corners closer than 0.1 um would all but stop the motion otherwise. Half as much makes chains of
-/// such corners slower, and limits far below those beside them make plans fail.
-constexpr double kLeastSeen = 0.25;
-
 constexpr double kNoJump = 1e-9;  // of dC/ds [-] and of d2C/ds2 [1/mm]
 
+/// How much more than at its begin the feedrate is on average over the first period of a ramp: the
+/// jerk is J until A is reached [mm/s].
+double mean_rise(const RampLimits& ramp, double period) {
+  if (ramp.jerk * period <= ramp.acceleration) {
+    return ramp.jerk * period * period / 6.0;
+  }
+  const double t = ramp.acceleration / ramp.jerk;
+  const double hold = period - t;
+  return ramp.acceleration * (t * t / 6.0 + 0.5 * t * hold + 0.5 * hold * hold) / period;
+}
+
 /// Corner feedrate of the acceleration rule. The feedrate is lowest at the corner itself and
-/// averages J T^2 / 6 more over the periods on either side, where the set points see it.
+/// averages mean_rise() more over the periods on either side, where the set points see it. Beside a
+/// bend it does not rise as much, so some of it is left.
 double passing_feedrate(double turn, double curvature, const RampLimits& ramp, double period) {
   const double corner = corner_acceleration_feedrate(turn, curvature, ramp.acceleration, period);
-  return std::max(corner - ramp.jerk * period * period / 6.0, 0.5 * corner);
+  const double left = 0.5 * std::min(1.0, ramp.acceleration / (ramp.jerk * period));
+  return std::max(corner - mean_rise(ramp, period), left * corner);
 }
 
 }  // namespace
@@ -93,7 +101,7 @@ JunctionLimits::JunctionLimits(const Limits& limits, const PlanningModel& model,
       model_(model),
       ramp_{limits.acceleration, limits.jerk},
       period_(period),
-      turn_back_(passing_feedrate(std::numbers::pi, 0.0, ramp_, period)) {}
+      turn_back_(corner_ripple_feedrate(std::numbers::pi, limits.jerk, period)) {}
 
 void JunctionLimits::append(const path::Segment& before, const path::Segment& after, double s,
                             std::vector<LimitZone>& zones) {
@@ -155,7 +163,7 @@ void JunctionLimits::limit_cluster(double turn, double s, std::vector<LimitZone>
       }
     };
     if (turn >= kSharpTurn && old.angle >= kSharpTurn) {
-      const double seen = std::max(apart / kHidingPeriods, kLeastSeen * turn_back_);
+      const double seen = std::max(apart / kHidingPeriods, turn_back_);
       lower(latest, seen);
       lower(zone, seen);
     }

@@ -118,7 +118,7 @@ class JunctionLimits {
   PlanningModel model_;
   RampLimits ramp_;
   double period_;
-  double turn_back_;         // feedrate of a single turn back [mm/s]
+  double turn_back_;         // feedrate of a turn back that other corners hide [mm/s]
   std::vector<Turn> turns_;  // corners that later ones may still limit
 };
 

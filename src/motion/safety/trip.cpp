@@ -43,6 +43,8 @@ std::string measure(const Trip& trip) {
                          trip.limit * 1e3);
     case Kind::kSamplesLost:
       return "samples came faster than they could be written";
+    case Kind::kServoFailed:
+      return "the servo gave no drive command";
     case Kind::kOutsideTravel:
       return fmt::format("the next set point is {:.4f} mm, its travel ends at {:g} mm", trip.value,
                          trip.limit);
@@ -75,6 +77,8 @@ std::string_view advice(Kind kind) {
       return "use a longer period, a free CPU or a real-time kernel, see [realtime]";
     case Kind::kSamplesLost:
       return "is the disk slow or full?";
+    case Kind::kServoFailed:
+      return "it must return a finite number of volts for each axis";
     case Kind::kOutsideTravel:
       return "it was not sent; this is an error of the planner, please report the program";
   }

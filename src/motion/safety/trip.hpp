@@ -21,6 +21,7 @@ enum class Kind : std::uint8_t {
   kLatePeriods,    ///< several periods in a row began too late
   kStall,          ///< one period began far too late
   kSamplesLost,    ///< samples came faster than they could be written
+  kServoFailed,    ///< the position loops of the caller gave no drive command
   kOutsideTravel,  ///< the next set point lies outside the travel, or is no number
 };
 

@@ -85,7 +85,7 @@ void LimitAudit::judge_normal(const Step& before, const Step& after) noexcept {
 }
 
 double LimitAudit::along_path(std::size_t order, double limit) const noexcept {
-  double difference = 0.0;
+  double certain = 0.0;
   for (std::size_t m = 1; m <= kLargestScale; m *= 2) {
     std::array<double, 3> arc{};    // of the runs of m periods [mm]
     std::array<double, 3> doubt{};  // Eq. 1 [mm]
@@ -97,6 +97,7 @@ double LimitAudit::along_path(std::size_t order, double limit) const noexcept {
       }
     }
     const double time = static_cast<double>(m) * period_;
+    double difference = 0.0;
     double open = 0.0;
     if (order == 2) {
       difference = (arc[1] - arc[0]) / (time * time);
@@ -106,10 +107,11 @@ double LimitAudit::along_path(std::size_t order, double limit) const noexcept {
       open = (doubt[0] + 2.0 * doubt[1] + doubt[2]) / (time * time * time);
     }
     if (open < kSmallDoubt * limit) {
-      break;
+      return difference;
     }
+    certain = std::max(std::abs(difference) - open, 0.0);
   }
-  return difference;
+  return certain;
 }
 
 }  // namespace twin::results

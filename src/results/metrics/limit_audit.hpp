@@ -63,8 +63,9 @@ using AuditPeaks = OfEachPeak<double>;
 ///   e_2 = (U + U') / (m T)^2,   e_3 = (U + 2 U' + U'') / (m T)^3                     (1)
 /// where U, U', U'' are the sums of u over the runs of m periods that enter the difference. A
 /// larger m makes the doubt smaller, but averages over a longer time. At each instant the audit
-/// uses the smallest m of 1, 2, 4, 8, 16 whose doubt is below 5 % of the limit, or m = 16 if there
-/// is none. So a corner or a step of curvature raises no false alarm, and a smooth path is not
+/// uses the smallest m of 1, 2, 4, 8, 16 whose doubt is below 5 % of the limit. If there is none, as
+/// among corners a few periods apart, it takes what is certain at m = 16, the difference less its
+/// doubt. So a corner or a step of curvature raises no false alarm, and a smooth path is not
 /// averaged more than it must be.
 ///
 /// The normal acceleration is the component of the plain second difference that is perpendicular to

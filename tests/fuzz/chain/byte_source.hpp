@@ -12,8 +12,10 @@ namespace twin::fuzz {
 /// choice.
 class ByteSource {
  public:
-  explicit ByteSource(Bytes bytes) : bytes_(bytes) {}
+  explicit ByteSource(Bytes bytes) : bytes_(bytes), size_(bytes.size()) {}
 
+  /// How many bytes have been used.
+  std::size_t used() const noexcept { return size_ - bytes_.size(); }
   bool is_empty() const noexcept { return bytes_.empty(); }
   /// The next byte.
   unsigned byte() noexcept;
@@ -31,7 +33,8 @@ class ByteSource {
   double log_uniform(double low, double high) noexcept;
 
  private:
-  Bytes bytes_;
+  Bytes bytes_;  // not used yet
+  std::size_t size_;
 };
 
 }  // namespace twin::fuzz

@@ -73,8 +73,10 @@ Case make_case(Bytes bytes) {
   ByteSource source(bytes);
   Case made;
   made.machine = make_settings(source);
+  made.cuts = {source.used()};
   const std::vector<Wish> wishes = make_wishes(source);
   made.program = make_program(source, made.machine);
+  made.cuts.insert(made.cuts.end(), made.program.cuts.begin(), made.program.cuts.end());
   for (const Piece& piece : made.program.pieces) {
     made.reference_time += fuzz::reference_time(piece, made.machine);
   }

@@ -17,7 +17,8 @@ struct Case {
   config::MachineFile machine;
   MadeProgram program;
   std::vector<runtime::OverrideChange> operations;  ///< ascending in time; 0 % holds
-  double reference_time = 0.0;  ///< of a motion that stops after each block, rests included [s]
+  std::vector<std::size_t> cuts;  ///< where in the bytes operations begin, then each stretch
+  double reference_time = 0.0;    ///< of a motion that stops after each block, rests included [s]
 };
 
 /// Settings that the bytes ask for: both planners, limits from a hundredth of the usual ones to a

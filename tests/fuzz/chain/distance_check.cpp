@@ -106,7 +106,9 @@ void measure_distance(const Case& made, const Trajectory& trajectory, Shares& sh
     at = found.second;
   }
   share_of(shares, Measure::kDistance) = largest;
-  if (trajectory.ending == Ending::kWhole) {
+  // A parameter that is not corrected runs past the end of a curve, or not up to it.
+  const bool is_exact = made.machine.interpolation.update == motion::ParameterUpdate::kCorrected;
+  if (is_exact && trajectory.ending == Ending::kWhole) {
     share_of(shares, Measure::kPassed) = passes_all(made, trajectory, allowed) ? 0.0 : 2.0;
   }
 }

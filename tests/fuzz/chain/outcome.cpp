@@ -34,7 +34,7 @@ void measure_time(const Case& made, const Trajectory& trajectory, Shares& shares
 }
 
 void judge_ends(const Case& made, const Trajectory& trajectory, Outcome& outcome) {
-  const auto say = [&](std::string what) { outcome.findings.push_back(std::move(what)); };
+  const auto say = [&](std::string what) { outcome.findings.push_back({std::move(what)}); };
   if (!(trajectory.points.front().norm() < kPlace)) {
     say("the first set point is not where the program begins");
   }
@@ -54,13 +54,19 @@ void judge_shares(const Case& made, Outcome& outcome) {
     if (share <= tolerated(measure) || std::isnan(share)) {
       continue;
     }
-    std::string text = fmt::format("{} is {:.4g} times what is allowed", name_of(measure), share);
     const std::string_view defect = known_defect(made, measure, share);
-    (defect.empty() ? outcome.findings : outcome.known).push_back(std::move(text));
+    (defect.empty() ? outcome.findings : outcome.known)
+        .push_back({std::string(name_of(measure)), share});
   }
 }
 
 }  // namespace
+
+std::string to_string(const Breach& breach) {
+  return breach.share > 0.0
+             ? fmt::format("{} is {:.4g} times what is allowed", breach.what, breach.share)
+             : breach.what;
+}
 
 double tolerated(Measure measure) {
   switch (measure) {
@@ -92,26 +98,26 @@ Outcome examine(const Case& made, bool is_repeated) {
   outcome.set_points = trajectory.points.size();
   outcome.ending = trajectory.ending;
   if (is_repeated && follow(made).points != trajectory.points) {
-    outcome.findings.emplace_back("the same case gives other set points the second time");
+    outcome.findings.push_back({"the same case gives other set points the second time"});
   }
   if (trajectory.ending == Ending::kRefused) {
     if (!is_lawful_refusal(trajectory.error)) {
-      outcome.findings.push_back("a sound program is refused: " + trajectory.error);
+      outcome.findings.push_back({"a sound program is refused: " + trajectory.error});
     }
     return outcome;
   }
   if (trajectory.ending == Ending::kNone) {
     (is_known_to_crawl(made) ? outcome.known : outcome.findings)
-        .emplace_back("the motion does not end");
+        .push_back({"the motion does not end"});
     return outcome;
   }
   if (trajectory.points.empty()) {
-    outcome.findings.emplace_back("a program that moves has no set points");
+    outcome.findings.push_back({"a program that moves has no set points"});
     return outcome;
   }
   if (!std::all_of(trajectory.points.begin(), trajectory.points.end(),
                    [](const Vec3& point) { return point.allFinite(); })) {
-    outcome.findings.emplace_back("a set point that is not finite");
+    outcome.findings.push_back({"a set point that is not finite"});
     return outcome;
   }
   judge_ends(made, trajectory, outcome);

@@ -7,11 +7,18 @@
 
 namespace twin::fuzz {
 
+/// A promise that was not kept.
+struct Breach {
+  std::string what;    ///< as "audited jerk", or a sentence
+  double share = 0.0;  ///< of what is allowed; 0 where that has no sense
+};
+std::string to_string(const Breach& breach);
+
 /// What became of a case.
 struct Outcome {
-  Shares shares{};                    ///< NaN where nothing is promised
-  std::vector<std::string> findings;  ///< a sentence each; empty: all promises are kept
-  std::vector<std::string> known;     ///< the same of defects that are known (known_defects.hpp)
+  Shares shares{};               ///< NaN where nothing is promised
+  std::vector<Breach> findings;  ///< empty: all promises are kept
+  std::vector<Breach> known;     ///< the same of defects that are known (known_defects.hpp)
   std::size_t set_points = 0;
   Ending ending = Ending::kNone;
 };

@@ -29,6 +29,14 @@ std::array<int, 3> axes_of(ProgramBuilder::Plane plane) {
   }
 }
 
+/// Centre of the arc of a radius between two points of a plane: at the right of the way for a
+/// clockwise arc of less than a half turn.
+Vec2 centre_by_radius(const Vec2& from, const Vec2& to, double radius, bool is_right) {
+  const Vec2 way = to - from;
+  const double off = std::sqrt(std::max(radius * radius / way.squaredNorm() - 0.25, 0.0));
+  return 0.5 * (from + to) + (is_right ? off : -off) * Vec2(way.y(), -way.x());
+}
+
 /// Weights of NURBS as they are read: rounded.
 double rounded(double value) { return std::strtod(fmt::format("{:.6f}", value).c_str(), nullptr); }
 
@@ -149,7 +157,13 @@ void ProgramBuilder::arc(const Vec2& centre, double sweep, double rise, bool by_
   std::string words = (is_clockwise ? "G02" : "G03") + words_to(end);
   const bool is_far_from_half = (turn > 0.3 && turn < 2.8) || (turn > 3.5 && turn < 5.9);
   if (by_radius && is_far_from_half && radius > 0.1) {
-    words += " " + word('R', turn > std::numbers::pi ? -radius : radius);
+    const bool is_long = turn > std::numbers::pi;
+    words += " " + word('R', is_long ? -radius : radius);
+    const Vec2 in_plane =
+        centre_by_radius({position_[first], position_[second]}, {end[first], end[second]},
+                         number(radius), is_clockwise != is_long);
+    middle[first] = in_plane.x();
+    middle[second] = in_plane.y();
   } else {
     words += fmt::format(" {} {}", word("IJK"[first], centre.x()), word("IJK"[second], centre.y()));
   }

@@ -24,6 +24,7 @@ struct Piece {
 struct MadeProgram {
   std::string text;
   std::vector<Piece> pieces;
+  std::vector<std::size_t> cuts;  ///< bytes used before each stretch that was asked for
 };
 
 /// Writes a program block by block, and keeps what each block means.
@@ -50,6 +51,8 @@ class ProgramBuilder {
   void set_incremental(bool is_incremental);  ///< G91 G90
   void set_continuous(double tolerance);      ///< G64, with P where the tolerance is above 0 [mm]
   void set_exact_stop();                      ///< G61
+  /// Another stretch begins, after so many bytes.
+  void begin_stretch(std::size_t bytes_used) { program_.cuts.push_back(bytes_used); }
   /// A line that means no motion: comments, numbers, words that are passed over.
   void add_chaff(std::size_t which);
 

@@ -24,6 +24,7 @@ class Writer {
 
   MadeProgram write() {
     do {
+      builder_.begin_stretch(bytes_.used());
       add_stretch();
     } while (!bytes_.is_empty() && has_room());
     if (time_ == 0.0) {

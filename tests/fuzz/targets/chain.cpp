@@ -21,8 +21,8 @@ void run(Bytes bytes) {
   }
   const Outcome outcome = examine(case_of(bytes), sum % 16 == 0);
   std::string all;
-  for (const std::string& finding : outcome.findings) {
-    all += (all.empty() ? "" : "; ") + finding;
+  for (const Breach& finding : outcome.findings) {
+    all += (all.empty() ? "" : "; ") + to_string(finding);
   }
   promise(all.empty(), all);
 }

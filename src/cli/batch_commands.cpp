@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/terminal.hpp"
+#include "core/wall_clock.hpp"
+#include "session/results.hpp"
+#include "studies/batch/batch.hpp"
+#include "studies/batch/job_file.hpp"
+#include "studies/batch/sweep_file.hpp"
+#include "studies/batch/sweep_results.hpp"
+
+// The commands of many runs: twin batch and twin sweep.
+namespace twin::cli {
+namespace {
+
+namespace batch = studies::batch;
+
+/// Prepares jobs. An error names the job by its number, which in a job file is its line.
+Expected<std::vector<batch::PreparedJob>> prepare(const std::vector<batch::Job>& jobs) {
+  batch::JobMaker maker;
+  std::vector<batch::PreparedJob> prepared;
+  prepared.reserve(jobs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    auto job = maker.prepare(jobs[i]);
+    if (!job) {
+      job.error().message = fmt::format("job {}: {}", i + 1, job.error().message);
+      return tl::unexpected(std::move(job.error()));
+    }
+    prepared.push_back(std::move(*job));
+  }
+  return prepared;
+}
+
+std::string time_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  return whole < 60 ? fmt::format("{} s", whole)
+                    : fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+Expected<batch::Report> run(const std::vector<batch::PreparedJob>& jobs, const batch::Store& store,
+                            const BatchRunArguments& arguments, const Environment& environment) {
+  Progress progress("running", arguments.verbosity);
+  batch::Options options;
+  options.workers = arguments.workers;
+  options.shard = arguments.shard;
+  options.shards = arguments.shards;
+  options.stop = &environment.stop;
+  options.progress = [&](const batch::Progress& at) {
+    progress.rename(
+        fmt::format("{} of {} runs, {} left", at.done, at.jobs, time_text(at.time_left)));
+    progress.show(static_cast<double>(at.done) / static_cast<double>(at.jobs));
+  };
+  return batch::run_batch(jobs, store, options);
+}
+
+void print(const batch::Report& report, const batch::Store& store, Verbosity verbosity) {
+  if (verbosity == Verbosity::kNormal) {
+    print_out("{} jobs: {} computed in {}, {} were in the store, {} failed\nstore: {}\n",
+              report.jobs, report.computed, time_text(report.time), report.found, report.failed,
+              store.folder().string());
+  }
+}
+
+}  // namespace
+
+Expected<void> execute(const BatchArguments& arguments, const Environment& environment) {
+  TWIN_TRY(const auto jobs, batch::read_jobs(arguments.jobs));
+  TWIN_TRY(const auto prepared, prepare(jobs));
+  TWIN_TRY(const auto store, batch::Store::open(arguments.run.store));
+  TWIN_TRY(const auto report, run(prepared, store, arguments.run, environment));
+  print(report, store, arguments.run.verbosity);
+  return {};
+}
+
+Expected<void> execute(const SweepArguments& arguments, const Environment& environment) {
+  TWIN_TRY(const auto sweep, batch::read_sweep(arguments.sweep));
+  TWIN_TRY(const auto points, batch::points_of(sweep));
+  std::vector<batch::Job> jobs;
+  for (const batch::SweepPoint& point : points) {
+    jobs.push_back(point.job);
+  }
+  if (arguments.is_listed_only) {
+    for (const batch::Job& job : jobs) {
+      print_out("{}\n", batch::to_line(job));
+    }
+    return {};
+  }
+  TWIN_TRY(const auto prepared, prepare(jobs));
+  const std::filesystem::path out =
+      session::result_folder(arguments.folder, arguments.sweep.stem().string());
+  BatchRunArguments conduct = arguments.run;
+  conduct.store = conduct.store.empty() ? out / "store" : conduct.store;
+  TWIN_TRY(const auto store, batch::Store::open(conduct.store));
+  TWIN_TRY(const auto report, run(prepared, store, conduct, environment));
+  print(report, store, conduct.verbosity);
+  std::vector<batch::Row> rows;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto result = store.find(prepared[i]);
+    if (!result) {
+      return fail(ErrorCode::kFile, "the store has lost a result while it was read; run it again");
+    }
+    rows.push_back({points[i], prepared[i], *result});
+  }
+  TWIN_CHECK(
+      batch::write_sweep(batch::keys_of(sweep), rows, arguments.sweep.filename().string(), out));
+  if (conduct.verbosity == Verbosity::kNormal) {
+    print_out("table, page and best settings: {}\n", (out / "index.html").string());
+  }
+  return {};
+}
+
+}  // namespace twin::cli

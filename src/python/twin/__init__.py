@@ -1,0 +1,259 @@
+"""Digital twin of a servo XY table and of the CNC controller that drives it.
+
+    import twin
+
+    result = twin.run("dolphin.nc", machine=twin.Machine("xy_table.toml"))
+    result.summary["contour_error_um"]["max"]
+    result.trace["x_enc_mm"]
+
+Lengths are in mm and times in s, unless a name ends with another unit. Every function raises
+twin.Error if a program, a file or a setting is wrong; it knows file, line and column. All of them
+may be called from several threads at once, and Ctrl-C ends each: a machine that moves brakes first.
+"""
+
+import json
+import os
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+from . import _twin
+from ._error import Error
+from ._machine import Machine, Section
+from ._results import Identification, Result, Trace
+from ._twin import Panel, Plan, Program, SetPoint
+
+__version__ = _twin.version
+
+__all__ = [
+    "Error",
+    "Identification",
+    "Machine",
+    "Panel",
+    "Plan",
+    "Plant",
+    "Program",
+    "Result",
+    "Section",
+    "SetPoint",
+    "SetPoints",
+    "Trace",
+    "check",
+    "circle",
+    "compare",
+    "convert",
+    "identify",
+    "plan",
+    "run",
+]
+
+_SECONDS_PER_MINUTE = 60.0
+
+
+def _program(program, feedrate_mm_per_min):
+    """A Program of a file's name or a Program, with its F words replaced if a feedrate is given."""
+    if not isinstance(program, Program):
+        program = Program.from_file(os.fspath(program))
+    if feedrate_mm_per_min is not None:
+        program = program.with_feedrate(feedrate_mm_per_min / _SECONDS_PER_MINUTE)
+    return program
+
+
+def _settings(machine):
+    return (machine if isinstance(machine, Machine) else Machine(machine))._settings
+
+
+def check(program, machine="xy_table.toml", *, feedrate_mm_per_min=None):
+    """Reads a whole program and checks that it stays within the travel of the machine.
+
+    Args:
+        program: path of a file, name of a program that twin brings, or a Program
+        machine: a Machine, or the name of a machine file
+        feedrate_mm_per_min: replaces the program's F words
+
+    Returns:
+        dict with blocks, length_mm, box_min_mm and box_max_mm (x, y, z)
+    """
+    return _twin.check(_program(program, feedrate_mm_per_min), _settings(machine))
+
+
+def plan(program, machine="xy_table.toml", *, feedrate_mm_per_min=None):
+    """Plans a whole program; nothing moves. Returns a Plan: time_s, path_length_mm, segments, ...
+
+    Plan.bound_s() is a lower bound of the time on the same path. The arguments are those of check().
+    """
+    return _twin.plan(_program(program, feedrate_mm_per_min), _settings(machine))
+
+
+def run(
+    program,
+    machine="xy_table.toml",
+    *,
+    hal="mujoco",
+    feedrate_mm_per_min=None,
+    overrides=(),
+    faults=(),
+    servo=None,
+    panel=None,
+    keep_trace=True,
+    wall_clock=False,
+    folder=None,
+):
+    """Plans a program, moves the machine along it and records every period.
+
+    In simulated time the same call gives the same trace each time, byte for byte that of the
+    command `twin run`.
+
+    Args:
+        program, machine, feedrate_mm_per_min: as check() has them
+        hal: "mujoco" (the simulated table), "ideal" or "emulated_rig"
+        overrides: pairs of a time [s] and a feed override [%]; 0 is a feed hold
+        faults: what breaks on the emulated rig, such as "alarm:x@1.5"
+        servo: position loops in place of those of the machine, a function of a SetPoint and of the
+            measured x and y [mm] that returns V-REF of x and y [V]; called once a period
+        panel: a Panel, by which other threads override, hold and stop the motion
+        keep_trace: whether the result gets the trace in memory
+        wall_clock: whether a period takes a period of the wall clock
+        folder: where trace.csv and summary.json are written while it runs; None: no files
+
+    Returns:
+        Result; its failure says why a run ended early
+
+    Raises:
+        Error: the run could not begin; nothing has moved
+        KeyboardInterrupt: after the machine has braked to rest on the path
+    """
+    outcome = _twin.run(
+        _program(program, feedrate_mm_per_min),
+        _settings(machine),
+        hal=hal,
+        faults=list(faults),
+        overrides=[(float(time), float(percent)) for time, percent in overrides],
+        folder="" if folder is None else os.fspath(folder),
+        keep_trace=keep_trace,
+        wall_clock=wall_clock,
+        panel=panel,
+        servo=servo,
+    )
+    return Result(outcome)
+
+
+def identify(
+    traces, machine="xy_table.toml", *, columns="", fixed=(), freed=(), evaluations=0, seed=1
+):
+    """Fits a machine's parameters to traces recorded on it.
+
+    Args:
+        traces: a CSV file, or several; each with even time, set points and measured positions
+        machine: settings that the search begins at, and that what is not identified keeps
+        columns: which columns are which signal, "SIGNAL=COLUMN[:UNIT],..."; "": as trace.csv
+        fixed: keys that keep their value
+        freed: keys that are fitted though they would be held
+        evaluations: simulations of the global search; 0: as many as usual
+        seed: of the global search; the same seed gives the same result
+
+    Returns:
+        Identification
+    """
+    files = [traces] if isinstance(traces, (str, os.PathLike)) else traces
+    found = _twin.identify(
+        [os.fspath(file) for file in files],
+        _settings(machine),
+        columns=columns,
+        fixed=list(fixed),
+        freed=list(freed),
+        evaluations=evaluations,
+        seed=seed,
+    )
+    return Identification(found, Machine(found.settings))
+
+
+def compare(programs, machines, *, hal="mujoco", feedrate_mm_per_min=None, workers=None):
+    """Runs every program on every machine, as many at once as there are cores.
+
+    Args:
+        programs: a program or several, as run() has them
+        machines: a dict of names and Machines; what differs in them is compared
+        hal, feedrate_mm_per_min: as run() has them
+        workers: runs at a time; None: as many as there are cores
+
+    Returns:
+        a list of dicts, one a run, programs before machines, each with the names "program" and
+        "machine", the "summary" and the "failure" (an Error or None)
+    """
+    many = [programs] if isinstance(programs, (str, os.PathLike, Program)) else list(programs)
+    cases = [(program, name) for program in many for name in machines]
+
+    def row(case):
+        program, name = case
+        result = run(program, machines[name], hal=hal, feedrate_mm_per_min=feedrate_mm_per_min,
+                     keep_trace=False)
+        return {"program": result.summary["program"], "machine": name, "summary": result.summary,
+                "failure": result.failure}
+
+    with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
+        return list(pool.map(row, cases))
+
+
+def circle(machine="xy_table.toml", *, radius_mm=20.0, feedrate_mm_per_min=3000.0, folder=None):
+    """Runs a circle in both senses on the simulated table: the circular test of ISO 230-4.
+
+    Args:
+        machine: a Machine, or the name of a machine file
+        radius_mm, feedrate_mm_per_min: of the circle about X0 Y0
+        folder: gets programs, traces and circle.json; None: no files are left
+
+    Returns:
+        dict as in circle.json
+    """
+    with tempfile.TemporaryDirectory() as unused:
+        _, found = _twin.circle(_settings(machine), radius_mm,
+                                feedrate_mm_per_min / _SECONDS_PER_MINUTE,
+                                unused if folder is None else os.fspath(folder))
+    return json.loads(found)
+
+
+def convert(program, to, machine="xy_table.toml", *, feedrate_mm_per_min=None):
+    """A program in the dialect of another control, its short blocks fitted by NURBS.
+
+    Args:
+        program, machine, feedrate_mm_per_min: as check() has them
+        to: "g5.2", "g6.2", "fanuc" or "bspline"
+
+    Returns:
+        str, the text of the new program, which was read back and held against the old one
+    """
+    text, _ = _twin.convert(_program(program, feedrate_mm_per_min), _settings(machine), to)
+    return text
+
+
+class Plant(_twin.Plant):
+    """A machine that Python moves itself, one period at a time, in simulated time.
+
+        with twin.Plant(machine) as plant:
+            plant.command((0.5, -0.2))  # V-REF of x and y [V]
+            plant.advance()             # one period passes
+            plant.position_mm           # x, y by the encoders
+    """
+
+    def __init__(self, machine="xy_table.toml", *, hal="mujoco", faults=()):
+        super().__init__(_settings(machine), hal, list(faults))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+class SetPoints(_twin.SetPoints):
+    """The set points of a program, an iterator of SetPoint, one for each interpolation period.
+
+        for point in twin.SetPoints("square.nc"):
+            point.position_mm, point.velocity_mm_per_s
+
+    The first is the start of the path, the last its end, both at rest. Nothing moves, and the travel
+    is not checked.
+    """
+
+    def __init__(self, program, machine="xy_table.toml", *, feedrate_mm_per_min=None):
+        super().__init__(_program(program, feedrate_mm_per_min), _settings(machine))

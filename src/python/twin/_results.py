@@ -1,0 +1,150 @@
+"""What a run leaves: figures and trace."""
+
+import json
+import os
+from collections.abc import Mapping
+
+from . import _twin
+
+_UNITS = {
+    "mm_per_s3": "mm/s^3",
+    "mm_per_s2": "mm/s^2",
+    "mm_per_s": "mm/s",
+    "per_s": "1/s",
+    "counts": "counts",
+    "percent": "%",
+    "mm": "mm",
+    "um": "um",
+    "ms": "ms",
+    "us": "us",
+    "Nm": "N m",
+    "N": "N",
+    "s": "s",
+    "V": "V",
+}
+
+
+def unit_of(column):
+    """The unit at the end of a column's name, such as "mm" of "x_cmd_mm"; "" if there is none."""
+    return next((unit for end, unit in _UNITS.items() if column.endswith("_" + end)), "")
+
+
+class Trace(Mapping):
+    """The trace of a run: a mapping from column names to NumPy arrays, one value a period.
+
+    The arrays are float64, read-only views of the memory that the run filled. They stay valid after
+    the trace itself is gone. The trace has one row for each interpolation period::
+
+        t, x = result.trace["t_s"], result.trace["x_enc_mm"]
+        pandas.DataFrame(result.trace.to_dict())
+    """
+
+    def __init__(self, trace):
+        self._trace = trace
+
+    def __getitem__(self, column):
+        return self._trace.column(column)
+
+    def __iter__(self):
+        return iter(self._trace.columns)
+
+    def __len__(self):
+        return len(self._trace.columns)
+
+    def __repr__(self):
+        return f"Trace({self.rows} rows, columns {', '.join(self)})"
+
+    @property
+    def columns(self):
+        """Names of the columns, each with its unit at its end."""
+        return self._trace.columns
+
+    @property
+    def units(self):
+        """The unit of each column that has one: ``{"x_enc_mm": "mm", ...}``."""
+        return {column: unit_of(column) for column in self if unit_of(column)}
+
+    @property
+    def rows(self):
+        """Number of rows."""
+        return self._trace.rows
+
+    @property
+    def period_s(self):
+        """Time from row to row [s]."""
+        return self._trace.period_s
+
+    @property
+    def is_complete(self):
+        """Whether the run reached the end of the program."""
+        return self._trace.is_complete
+
+    def to_dict(self):
+        """A dict of copies, which the caller may change."""
+        return {column: self[column].copy() for column in self}
+
+    def write_csv(self, folder):
+        """Writes FOLDER/trace.csv, byte for byte as the command `twin run` does.
+
+        The trace of a run that ended early becomes trace.partial.csv.
+        """
+        self._trace.write_csv(os.fspath(folder))
+
+
+class Result:
+    """How a run went.
+
+    Attributes:
+        summary: figures of the run, a dict as in summary.json
+        table: the figures as text, as `twin run` prints them
+        trace: the Trace, or None if none was kept
+        failure: the Error that ended the run early, or None if it reached the end
+    """
+
+    def __init__(self, outcome):
+        self._json = outcome.summary
+        self.summary = json.loads(outcome.summary)
+        self.table = outcome.table
+        self.trace = None if outcome.trace is None else Trace(outcome.trace)
+        self.failure = outcome.failure
+
+    def __repr__(self):
+        how = "complete" if self.failure is None else f"ended early: {self.failure}"
+        return f"Result({self.summary['program']}, {how})"
+
+    def save(self, folder):
+        """Writes trace.csv and summary.json into a folder, as `twin run --no-plots` does.
+
+        Raises:
+            Error: no trace was kept, or a file cannot be written
+        """
+        if self.trace is None:
+            raise _twin.Error("this run has kept no trace: run it with keep_trace=True")
+        self.trace.write_csv(folder)
+        name = "summary.json" if self.failure is None else "summary.partial.json"
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(self._json)
+
+
+class Identification:
+    """What recordings say of a machine.
+
+    Attributes:
+        machine: the Machine of the start with everything that was identified
+        parameters: a list of dicts as identify.json has them, with value, deviation and verdict
+        report: all of identify.json as a dict
+        table: what `twin identify` prints
+        toml: a machine file that says where each value is from
+        notes: what was noticed and let pass, a sentence each
+    """
+
+    def __init__(self, found, machine):
+        self.machine = machine
+        self.report = json.loads(found.json)
+        self.parameters = self.report.get("parameters", [])
+        self.table = found.table
+        self.toml = found.toml
+        self.notes = found.notes
+
+    def __repr__(self):
+        return f"Identification({self.machine.name})"

@@ -1,0 +1,187 @@
+#include "studies/batch/batch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <thread>
+
+#include "core/json.hpp"
+#include "results/metrics/summary.hpp"
+#include "runtime/run.hpp"
+#include "session/machine.hpp"
+
+namespace twin::studies::batch {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The summary without what differs from one computation of the same job to the next.
+std::string reproducible(const results::Summary& summary) {
+  Json json = Json::parse(results::to_json(summary));
+  for (const char* key : {"cycle_time_us", "real_time_factor", "command"}) {
+    json.erase(key);
+  }
+  return to_text(json);
+}
+
+/// The jobs of a batch and how far they are, shared by the workers.
+class Pool {
+ public:
+  Pool(std::vector<const PreparedJob*> jobs, const Store& store, const Options& options)
+      : jobs_(std::move(jobs)), store_(store), options_(options) {
+    report_.jobs = jobs_.size();
+  }
+
+  /// Takes jobs until there are none; several threads call it.
+  void work() {
+    for (std::size_t i = next_++; i < jobs_.size() && !is_over(); i = next_++) {
+      const Expected<Outcome> outcome = do_job(*jobs_[i]);
+      const std::lock_guard lock(mutex_);
+      note(outcome);
+    }
+  }
+
+  Expected<Report> finish() {
+    report_.time = seconds_since(start_);
+    if (error_) {
+      return tl::unexpected(std::move(*error_));
+    }
+    if (is_stopped()) {
+      return fail(ErrorCode::kInterrupted, "interrupted: what is stored stays");
+    }
+    return report_;
+  }
+
+ private:
+  struct Outcome {
+    bool was_found = false;
+    bool has_failed = false;
+  };
+
+  bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
+  bool is_over() const { return is_stopped() || is_broken_; }
+
+  Expected<Outcome> do_job(const PreparedJob& job) const {
+    if (const auto stored = store_.find(job)) {
+      return Outcome{true, !stored->failure.empty()};
+    }
+    TWIN_TRY(const std::filesystem::path folder, store_.begin(job));
+    Expected<StoredResult> result = guarded(job, folder);
+    const auto kept = result.and_then([&](const StoredResult& computed) {
+      return store_.commit(job, folder, computed).map([&] {
+        return Outcome{false, !computed.failure.empty()};
+      });
+    });
+    if (!kept) {
+      std::error_code ignored;
+      std::filesystem::remove_all(folder, ignored);
+    }
+    return kept;
+  }
+
+  Expected<StoredResult> guarded(const PreparedJob& job,
+                                 const std::filesystem::path& folder) const {
+    try {
+      return run_job(job, folder, options_.stop);
+    } catch (const std::exception& error) {
+      return fail(ErrorCode::kMachine, error.what());
+    }
+  }
+
+  void note(const Expected<Outcome>& outcome) {
+    if (!outcome) {
+      if (outcome.error().code != ErrorCode::kInterrupted && !error_) {
+        error_ = outcome.error();
+        is_broken_ = true;
+      }
+      return;
+    }
+    ++(outcome->was_found ? report_.found : report_.computed);
+    report_.failed += outcome->has_failed ? 1 : 0;
+    if (options_.progress) {
+      const std::size_t done = report_.found + report_.computed;
+      const double pace = report_.computed == 0
+                              ? 0.0
+                              : seconds_since(start_) / static_cast<double>(report_.computed);
+      options_.progress({jobs_.size(), done, pace * static_cast<double>(jobs_.size() - done)});
+    }
+  }
+
+  std::vector<const PreparedJob*> jobs_;
+  const Store& store_;
+  const Options& options_;
+  Clock::time_point start_ = Clock::now();
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> is_broken_{false};
+  std::mutex mutex_;  // of what follows
+  Report report_;
+  std::optional<Error> error_;
+};
+
+/// The jobs of the shard, of equal ones the first.
+std::vector<const PreparedJob*> chosen(std::span<const PreparedJob> jobs, const Options& options) {
+  std::vector<const PreparedJob*> result;
+  std::set<std::string_view> keys;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (i % options.shards == options.shard && keys.insert(jobs[i].key).second) {
+      result.push_back(&jobs[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<StoredResult> run_job(const PreparedJob& job, const std::filesystem::path& folder,
+                               const std::atomic<bool>* stop) {
+  std::unique_ptr<hal::Machine> hal;
+  if (job.job.hal != JobMachine::kNone) {
+    TWIN_TRY(hal, session::make_simulated_machine(name_of(job.job.hal), job.machine));
+  }
+  runtime::RunRequest request;
+  request.program = job.program;
+  request.machine = job.machine;
+  request.hal = hal.get();
+  request.feedrate = job.job.feedrate;
+  request.overrides = job.job.overrides;
+  request.directory = job.job.keeps_trace ? folder : std::filesystem::path();
+  request.durability = Durability::kCached;
+  request.stop = stop;
+  const auto result = runtime::run_program(request);
+  const Error* const error = !result           ? &result.error()
+                             : result->failure ? &*result->failure
+                                               : nullptr;
+  if (error == nullptr) {
+    return StoredResult{reproducible(result->summary), {}};
+  }
+  if (error->code == ErrorCode::kInterrupted) {
+    return tl::unexpected(*error);
+  }
+  std::error_code ignored;
+  std::filesystem::remove(folder / "trace.partial.csv", ignored);
+  return StoredResult{{}, to_string(*error)};
+}
+
+Expected<Report> run_batch(std::span<const PreparedJob> jobs, const Store& store,
+                           const Options& options) {
+  Pool pool(chosen(jobs, options), store, options);
+  {
+    const unsigned workers =
+        options.workers > 0 ? options.workers : std::max(1U, std::thread::hardware_concurrency());
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < workers; ++i) {
+      threads.emplace_back([&pool] { pool.work(); });
+    }
+    pool.work();
+  }
+  return pool.finish();
+}
+
+}  // namespace twin::studies::batch

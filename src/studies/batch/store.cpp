@@ -1,0 +1,188 @@
+#include "studies/batch/store.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "core/json.hpp"
+#include "core/sha256.hpp"
+
+namespace twin::studies::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMark = "twin-store.json";
+constexpr int kLayout = 1;
+constexpr std::size_t kPrefix = 2;  // digits of the key that name the folder above a result's
+constexpr const char* kWork = "work";
+
+std::optional<std::string> content_of(const fs::path& file) {
+  std::ifstream input(file, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(input), {}};
+  return input ? std::optional(std::move(content)) : std::nullopt;
+}
+
+Expected<void> make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) {
+    return file_error(folder, "make this folder", code.value());
+  }
+  return {};
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// Removes what processes of this host that are no more have left half done: KEY.NUMBER.PID.HOST.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  const std::string end = "." + host_name();
+  for (const auto& entry : fs::directory_iterator(folder / kWork, ignored)) {
+    std::string name = entry.path().filename().string();
+    if (!name.ends_with(end)) {
+      continue;
+    }
+    name.resize(name.size() - end.size());
+    const int process = std::atoi(name.substr(name.rfind('.') + 1).c_str());
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) {
+      fs::remove_all(entry.path(), ignored);
+    }
+  }
+}
+
+/// Whether every file that job.json names is there with its checksum.
+bool is_whole(const fs::path& folder, const Json& job) {
+  if (!job.is_object() || !job.contains("files") || !job["files"].is_object()) {
+    return false;
+  }
+  return std::ranges::all_of(job["files"].items(), [&](const auto& entry) {
+    const auto content = content_of(folder / entry.key());
+    return content && entry.value() == sha256(*content);
+  });
+}
+
+}  // namespace
+
+Expected<Store> Store::open(fs::path folder) {
+  TWIN_CHECK(make_folder(folder));
+  const fs::path mark = folder / kMark;
+  std::error_code code;
+  if (const auto text = content_of(mark)) {
+    const Json json = Json::parse(*text, nullptr, false);
+    if (!json.is_object() || json.value("layout", 0) != kLayout) {
+      return tl::unexpected(
+          Error{ErrorCode::kFile,
+                fmt::format("is a store of another layout than {}; use another folder", kLayout),
+                mark.string(), 0, 0});
+    }
+    remove_leftovers(folder);
+    return Store(std::move(folder));
+  }
+  if (!fs::is_empty(folder, code) || code) {
+    // Another process may just be making it.
+    const auto is_own = [](const fs::directory_entry& entry) {
+      return entry.path().filename().string().starts_with(kMark);
+    };
+    if (!std::ranges::all_of(fs::directory_iterator(folder, code), is_own)) {
+      return tl::unexpected(Error{ErrorCode::kFile,
+                                  "is no store, and not empty; name a store or a new folder",
+                                  folder.string(), 0, 0});
+    }
+  }
+  const fs::path own = folder / fmt::format("{}.{}", kMark, ::getpid());
+  TWIN_CHECK(write_whole_file(own, to_text(Json{{"layout", kLayout}})));
+  fs::rename(own, mark, code);
+  if (code) {
+    return file_error(mark, "make this file", code.value());
+  }
+  return Store(std::move(folder));
+}
+
+fs::path Store::folder_of(const PreparedJob& job) const {
+  return folder_ / job.key.substr(0, kPrefix) / job.key;
+}
+
+std::optional<StoredResult> Store::find(const PreparedJob& job) const {
+  const fs::path folder = folder_of(job);
+  const auto text = content_of(folder / "job.json");
+  if (!text) {
+    return std::nullopt;
+  }
+  const Json described = Json::parse(*text, nullptr, false);
+  const auto summary = content_of(folder / "summary.json");
+  const auto failure = content_of(folder / "failure.json");
+  if (!is_whole(folder, described) || summary.has_value() == failure.has_value()) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    return std::nullopt;
+  }
+  StoredResult result{summary.value_or(""), {}};
+  if (failure) {
+    const Json json = Json::parse(*failure, nullptr, false);
+    result.failure = json.is_object() ? json.value("error", "unknown") : "unknown";
+  }
+  return result;
+}
+
+Expected<fs::path> Store::begin(const PreparedJob& job) const {
+  static std::atomic<int> number{0};
+  const fs::path work =
+      folder_ / kWork / fmt::format("{}.{}.{}.{}", job.key, number++, ::getpid(), host_name());
+  TWIN_CHECK(make_folder(work));
+  return work;
+}
+
+Expected<void> Store::commit(const PreparedJob& job, const fs::path& work,
+                             const StoredResult& result) const {
+  const bool has_failed = !result.failure.empty();
+  TWIN_CHECK(
+      write_whole_file(work / (has_failed ? "failure.json" : "summary.json"),
+                       has_failed ? to_text(Json{{"error", result.failure}}) : result.summary));
+  Json described;
+  described["job"] = Json::parse(job.canonical);
+  std::error_code code;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(work, code)) {
+    if (entry.is_regular_file(code)) {
+      files.push_back(entry.path());
+    }
+  }
+  std::ranges::sort(files);
+  for (const fs::path& file : files) {
+    const auto content = content_of(file);
+    if (!content) {
+      return file_error(file, "read", errno);
+    }
+    described["files"][file.filename().string()] = sha256(*content);
+  }
+  TWIN_CHECK(write_whole_file(work / "job.json", to_text(described)));
+  const fs::path target = folder_of(job);
+  TWIN_CHECK(make_folder(target.parent_path()));
+  fs::rename(work, target, code);
+  if (code && fs::exists(target / "job.json")) {  // another process was quicker, with equal bytes
+    fs::remove_all(work, code);
+    return {};
+  }
+  if (code) {
+    return file_error(target, "make this folder", code.value());
+  }
+  sync_folder(target.parent_path());
+  return {};
+}
+
+}  // namespace twin::studies::batch

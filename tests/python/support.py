@@ -1,0 +1,5 @@
+"""What the tests share."""
+
+import os
+
+EXECUTABLE = os.environ["TWIN_EXECUTABLE"]
