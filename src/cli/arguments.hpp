@@ -72,6 +72,8 @@ struct RunArguments {
   std::string overrides;          ///< seconds:percent, ...
   bool is_on_wall_clock = false;  ///< --realtime
   std::filesystem::path control;  ///< socket for an operator; empty: none
+  std::optional<int> view;        ///< --view, its port; 0: any
+  std::string publish;            ///< --publish, an address; empty: none
   ResultArguments results;
   VideoArguments video;
 };
@@ -103,6 +105,11 @@ struct ReportArguments {
   std::vector<std::filesystem::path> folders;  ///< of runs
   std::filesystem::path file;                  ///< the page; empty: report.html
   Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct SettingsArguments {
+  std::string filter;  ///< part of a section's or key's name; empty: all
+  MachineArguments machine;
 };
 
 struct CompareArguments {
@@ -215,10 +222,10 @@ struct TextArguments {
 /// What a command line asks for.
 using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
-                 ReportArguments, CompareArguments, ReproduceArguments, CircleArguments,
-                 IdentifyArguments, ConvertArguments, BatchArguments, SweepArguments,
-                 RigProbeArguments, RigMonitorArguments, RigCheckArguments, RigJogArguments,
-                 RigHomeArguments, RigEmulateArguments>;
+                 ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
+                 CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
+                 SweepArguments, RigProbeArguments, RigMonitorArguments, RigCheckArguments,
+                 RigJogArguments, RigHomeArguments, RigEmulateArguments>;
 
 /// Reads a command line.
 ///

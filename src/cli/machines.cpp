@@ -84,6 +84,22 @@ Expected<void> check_rig_is_meant(const HalArguments& arguments) {
   return {};
 }
 
+/// Words of a command line as it is quoted for a shell, without quotation marks.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words(1);
+  bool is_quoted = false;
+  for (const char c : command) {
+    if (c == '\'') {
+      is_quoted = !is_quoted;
+    } else if (c == ' ' && !is_quoted) {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
 }  // namespace
 
 std::string shared_name(const RigArguments& arguments) {
@@ -164,6 +180,24 @@ session::MakeMachine machine_of(const HalArguments& arguments) {
     TWIN_CHECK(check_rig_is_meant(arguments));
     return session::make_simulated_machine(arguments.name, machine);
   };
+}
+
+std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
+                                             const std::atomic<bool>& stop) {
+  std::vector<std::string> names{origin.program};
+  for (const std::string& word : words_of(origin.command)) {
+    const std::filesystem::path file(word);
+    if (file.filename() == origin.program || file.stem() == origin.program) {
+      names.push_back(word);
+    }
+  }
+  for (const std::string& name : names) {
+    auto program = read_program(name, stop);
+    if (program && program->sha256() == origin.program_sha256) {
+      return *std::move(program);
+    }
+  }
+  return std::nullopt;
 }
 
 hal::Axis axis_of(const std::string& name) { return name == "x" ? hal::kX : hal::kY; }

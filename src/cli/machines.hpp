@@ -14,6 +14,7 @@
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/rig_machine.hpp"
 #include "session/machine.hpp"
+#include "session/pictures.hpp"
 
 /// From the options of a command to program, machine file, machine and rig.
 namespace twin::cli {
@@ -30,6 +31,11 @@ Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Ve
 
 /// What makes the machine of --hal. A real one is confirmed by the user first.
 session::MakeMachine machine_of(const HalArguments& arguments);
+
+/// The program of a trace, where it is still there and still the same: by its name, or by the path
+/// that the command line of the run had.
+std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
+                                             const std::atomic<bool>& stop);
 
 /// "x" or "y" as an axis.
 hal::Axis axis_of(const std::string& name);

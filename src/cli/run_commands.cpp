@@ -9,6 +9,8 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
+#include "live/live_view.hpp"
+#include "live/publisher.hpp"
 #include "operator/operator_station.hpp"
 #include "results/metrics/summary.hpp"
 #include "runtime/program_check.hpp"
@@ -145,6 +147,38 @@ Expected<void> make_pictures(const session::Session& session, ResultArguments re
 
 }  // namespace
 
+namespace {
+
+/// Whoever gets the rows of a run besides its trace.
+struct Audience {
+  std::unique_ptr<live::LiveView> view;
+  std::unique_ptr<live::Publisher> publisher;
+};
+
+Expected<Audience> invite(const RunArguments& arguments, session::Session& session) {
+  Audience audience;
+  if (arguments.view) {
+    if (!session.is_on_wall_clock()) {
+      return fail(ErrorCode::kUsage,
+                  "--view is for runs on the wall clock: --realtime or --hal rig; in simulated "
+                  "time there is report.html afterwards");
+    }
+    const hal::MachineInfo& info = session.hal()->info();
+    TWIN_TRY(audience.view,
+             live::open_live_view({session.text(), session.machine(), info.name, info.simulated},
+                                  *arguments.view));
+    session.add_sink(*audience.view);
+    print_note("look at " + audience.view->address());
+  }
+  if (!arguments.publish.empty()) {
+    TWIN_TRY(audience.publisher, live::Publisher::open(arguments.publish));
+    session.add_sink(*audience.publisher);
+  }
+  return audience;
+}
+
+}  // namespace
+
 Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
   TWIN_TRY(session::Request request,
            request_of(arguments.program, arguments.machine, arguments.overrides, arguments.results,
@@ -153,6 +187,7 @@ Expected<void> execute(const RunArguments& arguments, const Environment& environ
   request.make_machine = machine_of(arguments.hal);
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
+  TWIN_TRY(const Audience audience, invite(arguments, session));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
   TWIN_CHECK(report_run(session, result, arguments.results));
@@ -173,46 +208,6 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
 }
 
 // Render.
-
-namespace {
-
-/// Words of a command line as it is quoted for a shell, without quotation marks.
-std::vector<std::string> words_of(const std::string& command) {
-  std::vector<std::string> words(1);
-  bool is_quoted = false;
-  for (const char c : command) {
-    if (c == '\'') {
-      is_quoted = !is_quoted;
-    } else if (c == ' ' && !is_quoted) {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
-}
-
-/// The program of a trace, where it is still there and still the same: by its name, or by the path
-/// that the command line of the run had.
-std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
-                                             const std::atomic<bool>& stop) {
-  std::vector<std::string> names{origin.program};
-  for (const std::string& word : words_of(origin.command)) {
-    const std::filesystem::path file(word);
-    if (file.filename() == origin.program || file.stem() == origin.program) {
-      names.push_back(word);
-    }
-  }
-  for (const std::string& name : names) {
-    auto program = read_program(name, stop);
-    if (program && program->sha256() == origin.program_sha256) {
-      return *std::move(program);
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 Expected<void> execute(const RenderArguments& arguments, const Environment& environment) {
   TWIN_TRY(const session::TraceOrigin origin, session::read_origin(arguments.folder));

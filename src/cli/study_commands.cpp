@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/compare_runs.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
@@ -110,9 +111,19 @@ Expected<void> compare_planners(const ResultArguments& results, studies::compare
 }  // namespace
 
 Expected<void> execute(const CompareArguments& arguments, const Environment& environment) {
+  if (are_folders(arguments.programs)) {
+    return compare_folders(arguments, environment);
+  }
+  TWIN_TRY(const auto variants, variants_of(arguments.machine.settings));
   TWIN_TRY(const auto programs, read_programs(arguments.programs, environment.stop));
-  TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
   const bool is_one = programs.size() == 1;
+  if (!variants.empty()) {
+    return is_one ? compare_variants(arguments, variants, programs.front(), environment)
+                  : fail(ErrorCode::kUsage,
+                         "several values of a setting are compared on one program, not on " +
+                             std::to_string(programs.size()));
+  }
+  TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
   const std::filesystem::path out = session::result_folder(
       arguments.results.folder,
       is_one ? request.program.file().stem().string() + "_compare" : std::string("compare"));

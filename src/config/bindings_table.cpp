@@ -40,7 +40,8 @@ void add_axis(std::vector<Binding>& list, const std::string& section,
 
 std::vector<Binding> table_bindings(hal::mujoco::TableParams& table) {
   std::vector<Binding> list;
-  list.push_back({"table", "model", "", &table.model, 0.0, 0.0, "MJCF file, relative to this one"});
+  list.push_back({"table", "model", "", &table.model, 0.0, 0.0,
+                  "MJCF file, beside this one or in the program's folder mjcf"});
   for (const hal::mujoco::Setting& setting : hal::mujoco::table_settings(table)) {
     list.push_back(binding_of("table", setting));
   }

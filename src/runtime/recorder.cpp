@@ -58,6 +58,7 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
       break;
     }
     in_space_.add(*next);
+    largest_feedrate_ = std::max(largest_feedrate_, next->feedrate);
     rapids_.push_back(next->motion == gcode::Motion::kRapid);
     if (options_.has_machine) {
       along_z_.add(*next);

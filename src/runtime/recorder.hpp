@@ -61,6 +61,8 @@ class Recorder {
   void abandon() noexcept;
 
   std::int64_t samples() const noexcept { return samples_; }
+  /// Largest programmed feedrate of the blocks so far [mm/s].
+  double largest_feedrate() const noexcept { return largest_feedrate_; }
   /// Way of the set points so far [mm].
   double path_length() const noexcept { return path_length_; }
   const results::Sample& last() const noexcept { return last_; }
@@ -102,6 +104,7 @@ class Recorder {
   results::MotionFigures no_rapids_;  // without rapids
   results::MotionFigures pen_down_;   // without rapids and with the pen down
   Vec2 direction_ = Vec2::UnitX();    // of the motion of the set point, seen along Z
+  double largest_feedrate_ = 0.0;     // programmed [mm/s]
   double path_length_ = 0.0;          // way of the set points [mm]
   results::LogHistogram cycle_time_;
   CycleTiming timing_;

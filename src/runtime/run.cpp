@@ -10,10 +10,12 @@
 #include <thread>
 #include <utility>
 
+#include "config/loop_margins.hpp"
 #include "config/machine_file.hpp"
 #include "core/atomic_file.hpp"
 #include "core/must_finish.hpp"
 #include "core/this_program.hpp"
+#include "core/units.hpp"
 #include "hal/active_machine.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/realtime_thread.hpp"
@@ -204,7 +206,11 @@ std::optional<Error> Run::failure() const {
       return error;
     }
   }
-  return describe_end(motion_, recorder_.last(), request_.hal);
+  const bool has_own_servo = request_.servo != nullptr;
+  return describe_end(motion_, recorder_.last(), request_.hal,
+                      motion_.trip && !has_own_servo
+                          ? advice_on_loop(*motion_.trip, request_.machine)
+                          : std::string());
 }
 
 /// What was done where the run has ended early.
@@ -246,12 +252,25 @@ results::Summary Run::summarise(double wall_time, const std::optional<Error>& fa
         "back to its start",
         figures.blocks, summary.program));
   }
+  if (const double largest = recorder_.largest_feedrate(); largest > machine.limits.feedrate) {
+    summary.notes.push_back(fmt::format("F{:g} mm/min is cut to limits.feedrate_mm_per_min, {:g}",
+                                        units::mm_per_min_from_mm_per_s(largest),
+                                        units::mm_per_min_from_mm_per_s(machine.limits.feedrate)));
+  }
   summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
   if (failure) {
     summarise_early_end(summary, *failure);
   }
   if (summary.run) {
+    if (request_.servo == nullptr && !request_.hal->info().follows_reference) {
+      summary.loops.emplace();
+      for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
+        const config::LoopMargins loop =
+            config::loop_margins(machine.servo[i], machine.table.axis[i], machine.period);
+        (*summary.loops)[i] = {loop.bandwidth_Hz, loop.phase_margin_deg, loop.gain_margin};
+      }
+    }
     summary.run->real_time_factor = summary.run->machining_time / wall_time;
     if (summary.run->realtime) {
       summary.run->realtime->late_periods = motion_.late_periods;

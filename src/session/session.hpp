@@ -80,6 +80,7 @@ class Session {
 
   /// File of the program, or the name of its text.
   const std::filesystem::path& program() const noexcept { return request_.program.file(); }
+  const gcode::ProgramText& text() const noexcept { return request_.program; }
   const config::MachineFile& machine() const noexcept { return request_.machine; }
   const std::filesystem::path& folder() const noexcept { return request_.folder; }
   /// The machine that moves; null for a plan.
@@ -88,6 +89,9 @@ class Session {
   bool is_on_wall_clock() const noexcept;
   /// Title of the pictures: "dolphin.nc, 3000 mm/min".
   std::string title() const;
+
+  /// Lets run() hand the rows to a further sink, which outlives it.
+  void add_sink(TraceSink& sink) { request_.sinks.push_back(&sink); }
 
   /// Runs the program, computes the bound of its time if asked for, and writes the summary. After a
   /// complete run it removes files of earlier runs that the new ones do not replace.

@@ -3,9 +3,10 @@
 const assert = require('assert');
 const fs = require('fs');
 const path = require('path');
+const {spawn} = require('child_process');
 const {chromium} = require('playwright-core');
 
-const [folder, executablePath] = process.argv.slice(2);
+const [folder, executablePath, twin] = process.argv.slice(2);
 const complaints = [];
 let passed = 0;
 
@@ -189,6 +190,36 @@ const test = async (name, body) => {
     assert.ok((await failed.textContent('#notice')).includes('tracking error'));
     await failed.screenshot({path: path.join(folder, 'failed.png'), fullPage: true});
     await failed.close();
+  });
+
+  await test('a run on the wall clock is seen while it goes on', async () => {
+    const child = spawn(twin, ['run', 'part.nc', '--out', 'live', '--realtime', '--view', '0', '--no-plots', '--quiet'], {cwd: folder});
+    let said = '';
+    child.stderr.on('data', (text) => { said += text; });
+    const ended = new Promise((resolve) => { child.on('exit', resolve); });
+    while (!/http:\S+/.test(said)) await new Promise((resolve) => { setTimeout(resolve, 20); });
+    const address = said.match(/http:\S+/)[0];
+    const live = await browser.newPage({viewport: {width: 1280, height: 900}});
+    live.on('pageerror', (e) => complaints.push(`live: ${e.message}`));
+    assert.strictEqual((await live.request.get(address.replace(/[0-9a-f]{32}/, '0'.repeat(32)))).status(), 404);
+    assert.strictEqual((await live.request.post(address)).status(), 404);
+    await live.goto(address);
+    await live.waitForFunction(() => Number(document.documentElement.dataset.rows) > 60, null, {timeout: 20000});
+    assert.ok((await live.textContent('#badges')).includes('live'));
+    await live.screenshot({path: path.join(folder, 'live.png'), fullPage: true});
+    const before = Number(await live.evaluate(() => document.documentElement.dataset.rows));
+    await live.waitForFunction(() => document.documentElement.dataset.ended, null, {timeout: 20000});
+    assert.strictEqual(await ended, 0);
+    const shown = await live.evaluate(() => ({n: T.page.state.runs[0].n, t: [...T.page.state.runs[0].t], x: [...T.page.state.runs[0].x]}));
+    assert.ok(shown.n > before);
+    const all = trace('live');
+    assert.ok(Math.abs(shown.n - all.length / 10) < 0.02 * shown.n, `${shown.n} of ${all.length}`);
+    for (let i = 0; i < shown.n; i += 20) {
+      const row = all[Math.round(shown.t[i] / 0.001)];
+      assert.ok(Math.abs(row.x_cmd_mm - shown.x[i]) < 1e-4);
+    }
+    assert.ok((await live.textContent('#notice')).includes('has ended'));
+    await live.close();
   });
 
   await test('no page complains or asks for anything', async () => { assert.deepStrictEqual(complaints, []); });

@@ -88,7 +88,10 @@ TEST_F(Results, OfARunHaveTheirNamesInOrder) {
                 "contour_error_um{max rms} "
                 "table_contour_error_um{max rms} tracking_error_um{x{max rms} y{max rms}} " +
                 kCutting + kCuttingRun + "} " + kAudit +
-                " maxima cycle_time_us{p50 p99 max} real_time_factor" + kOrigin);
+                " maxima loops{x{bandwidth_Hz phase_margin_deg gain_margin} "
+                "y{bandwidth_Hz phase_margin_deg gain_margin}} cycle_time_us{p50 p99 max} "
+                "real_time_factor" +
+                kOrigin);
   EXPECT_EQ(summary["program"], "ok.nc");
   EXPECT_EQ(summary["machine"], "xy_table");
   EXPECT_EQ(summary["hal"], "mujoco");

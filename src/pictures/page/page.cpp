@@ -77,6 +77,9 @@ Expected<Json> add_run(const PageRun& run) {
   json["name"] = run.name;
   json["partial"] = run.is_partial;
   json["note"] = run.note;
+  if (run.is_live) {
+    json["live"] = true;
+  }
   json["rows_of_trace"] = run.rows.rows_of_trace;
   json["thinned"] = run.rows.is_thinned;
   Json summary = Json::parse(run.summary, nullptr, false);

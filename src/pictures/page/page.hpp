@@ -26,6 +26,7 @@ struct PageRun {
   std::string name;         ///< by which it is told from the others
   std::string summary;      ///< text of its summary.json
   bool is_partial = false;  ///< it ended early
+  bool is_live = false;     ///< it is under way: the page asks for its rows
   PageRows rows;
   std::optional<PageProgram> program;
   std::string note;  ///< why there is no program; may be empty

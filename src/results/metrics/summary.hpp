@@ -102,6 +102,13 @@ struct EarlyEnd {
   std::optional<Place> at;  ///< the last set point; nothing if there was none
 };
 
+/// Position loop of an axis by the model of the machine file, without friction.
+struct LoopFigures {
+  double bandwidth_Hz = 0.0;      ///< where the closed loop falls to -3 dB
+  double phase_margin_deg = 0.0;  ///< [deg]
+  double gain_margin = 0.0;       ///< factor of the gain at which the loop oscillates [-]
+};
+
 /// Results that only a run on a machine has.
 struct MachineResults {
   double machining_time = 0.0;               ///< from the first set point to the last sample [s]
@@ -140,6 +147,8 @@ struct Summary {
   /// the way to there, and counts and times of the plan are not shown.
   std::optional<EarlyEnd> early_end;
   std::optional<MachineResults> run;  ///< nothing for a plan
+  /// Position loops of x and y; nothing where the machine file's servo closes none.
+  std::optional<std::array<LoopFigures, 2>> loops;
 
   std::vector<std::string> notes;  ///< settings that were changed for the run, and why
   std::string version;             ///< version of twin that made the run, as in "0.9.0"

@@ -52,6 +52,12 @@ Json maxima(const Summary& summary) {
   return list;
 }
 
+Json json_of(const LoopFigures& loop) {
+  return {{"bandwidth_Hz", rounded(loop.bandwidth_Hz)},
+          {"phase_margin_deg", rounded(loop.phase_margin_deg)},
+          {"gain_margin", rounded(loop.gain_margin)}};
+}
+
 Json json_of(const EarlyEnd& end) {
   Json json{{"reason", end.reason}};
   if (end.at) {
@@ -115,6 +121,9 @@ std::string to_json(const Summary& summary) {
   add_group(json, summary, Group::kAxisPeaks);
   if (Json places = maxima(summary); !places.empty()) {
     json["maxima"] = std::move(places);
+  }
+  if (summary.loops) {
+    json["loops"] = {{"x", json_of((*summary.loops)[0])}, {"y", json_of((*summary.loops)[1])}};
   }
   add_group(json, summary, Group::kCycle);
   add_group(json, summary, Group::kWallClock);

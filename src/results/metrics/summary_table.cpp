@@ -86,6 +86,12 @@ void add_run(TextTable& table, const Summary& s) {
       add(table, "largest contour error", placed(s, "contour_error_max_um", *worst));
     }
   }
+  for (std::size_t i = 0; s.loops && i < s.loops->size(); ++i) {
+    const LoopFigures& loop = (*s.loops)[i];
+    add(table, fmt::format("position loop, {:c}", "xy"[i]),
+        fmt::format("bandwidth {:.1f} Hz, phase margin {:.1f} deg, gain margin {:.2f}",
+                    loop.bandwidth_Hz, loop.phase_margin_deg, loop.gain_margin));
+  }
   for (const std::string& note : s.notes) {
     add(table, "note", note);
   }

@@ -31,6 +31,13 @@ T.Curves = class {
     this.zoomTo(this.range);
   }
 
+  // The runs have more rows than before.
+  update() {
+    this.x = this.abscissa(this.state.runs[0]);
+    for (const chart of this.charts) chart.lines = this.lines(chart.q);
+    this.zoomTo(this.range);
+  }
+
   // Lines of a chart: those of a run, or one of each run.
   lines(q) {
     const runs = this.state.runs;

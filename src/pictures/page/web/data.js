@@ -47,24 +47,32 @@ T.readRun = async (meta, number) => {
     c[column.name] = T.unpack(bytes, at, column);
     at += 4 * column.count;
   }
-  const run = {meta, number, name: meta.name, summary: meta.summary, n: c.t_s.length, t: c.t_s,
-    x: c.x_cmd_mm, y: c.y_cmd_mm, z: c.z_cmd_mm || new Float32Array(c.t_s.length), line: c.line, segment: c.segment,
-    f: c.feedrate_mm_per_s, e: c.contour_error_signed_um || c.contour_error_um, ex: c.x_tracking_error_um,
-    ey: c.y_tracking_error_um, ux: c.x_drive_V, uy: c.y_drive_V, tx: c.x_torque_Nm, ty: c.y_torque_Nm,
-    rx: c.x_friction_N, ry: c.y_friction_N, acc: c.acceleration_mm_per_s2, limit: c.feedrate_limit_mm_per_s,
-    table: c.table_contour_error_signed_um, command: c.command_contour_error_signed_um, outline: null, text: null};
+  const run = T.runOf(meta, number, c);
   if (meta.outline) {
     run.outline = {lifts: meta.lifts};
     for (const [k, column] of meta.outline.entries()) {
       run.outline[k ? 'y' : 'x'] = T.unpack(bytes, at, column);
       at += 4 * column.count;
     }
-    if (meta.text_bytes > 0) {
-      run.text = new TextDecoder().decode(bytes.subarray(at, at + meta.text_bytes)).split(/\r\n|\n|\r/);
-      if (run.text[run.text.length - 1] === '') run.text.pop();
-    }
+    if (meta.text_bytes > 0) run.text = T.linesOf(bytes.subarray(at, at + meta.text_bytes));
   }
   T.derive(run, c.rapid);
+  return run;
+};
+
+T.linesOf = (bytes) => {
+  const lines = new TextDecoder().decode(bytes).split(/\r\n|\n|\r/);
+  if (lines[lines.length - 1] === '') lines.pop();
+  return lines;
+};
+
+T.runOf = (meta, number, c) => {
+  const run = {meta, number, name: meta.name, summary: meta.summary, n: c.t_s.length, t: c.t_s,
+    x: c.x_cmd_mm, y: c.y_cmd_mm, z: c.z_cmd_mm || new Float32Array(c.t_s.length), line: c.line, segment: c.segment,
+    f: c.feedrate_mm_per_s, e: c.contour_error_signed_um || c.contour_error_um, ex: c.x_tracking_error_um,
+    ey: c.y_tracking_error_um, ux: c.x_drive_V, uy: c.y_drive_V, tx: c.x_torque_Nm, ty: c.y_torque_Nm,
+    rx: c.x_friction_N, ry: c.y_friction_N, acc: c.acceleration_mm_per_s2, limit: c.feedrate_limit_mm_per_s,
+    table: c.table_contour_error_signed_um, command: c.command_contour_error_signed_um, outline: null, text: null};
   return run;
 };
 

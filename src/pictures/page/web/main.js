@@ -51,6 +51,7 @@ T.header = (state) => {
   const planner = s.planner === 'certified' ? 'certified planner' : [s.planner && `${s.planner} planner`, s.interpolator].filter(Boolean).join(', ');
   T.el('about').textContent = [s.machine && (s.hal === 'none' ? `planned for ${s.machine}` : `on ${s.machine} (${s.hal})`), planner, `period ${T.number(run.period * 1e3, 3).replace(/\.?0+$/, '')} ms`, s.version && `twin ${s.version}`].filter(Boolean).join(' · ');
   const badges = [];
+  if (run.meta.live) badges.push('<span class="badge bad">live</span>');
   if (state.runs.some((r) => r.meta.partial)) badges.push('<span class="badge bad">ended early</span>');
   badges.push(`<span class="badge">${s.hal === 'none' ? 'plan' : s.simulated === false ? 'measured on the machine' : 'simulated'}</span>`);
   T.el('badges').innerHTML = badges.join('');
@@ -61,10 +62,11 @@ T.header = (state) => {
     if (r.meta.thinned) notes.push(`The trace has ${T.number(r.meta.rows_of_trace, 0)} rows; of these ${T.number(r.n, 0)} are shown, among them the smallest and the largest of each quantity. Acceleration and jerk are known only where rows follow each other.`);
     for (const note of r.summary.notes || []) notes.push(note);
   }
+  if (run.meta.live) notes.push('This run is under way; a hundred rows a second are shown.');
   T.el('notice').hidden = !notes.length;
   T.el('notice').textContent = notes.join(' ');
   T.el('keys').innerHTML = state.runs.length > 1 ? '' : T.keyFigures(state);
-  T.el('keys').hidden = state.runs.length > 1;
+  T.el('keys').hidden = state.runs.length > 1 || Boolean(run.meta.live);
 };
 
 T.showScale = (state) => {
@@ -75,14 +77,17 @@ T.showScale = (state) => {
   T.el('scale').innerHTML = ramp + runs + program;
 };
 
+// What is to be seen of a run at first sight.
+T.lookAt = (run) => {
+  run.worst = T.worstPlaces(run, 5);
+  run.hasHeight = run.z.some((v) => v !== run.z[0]);
+  run.tools = (run.text || []).map((line, k) => [k + 1, line]).filter(([, line]) => /\bM0?6\b/i.test(line.replace(/\(.*?\)|;.*/g, ''))).map(([k, line]) => [k, (line.match(/T\s*(\d+)/i) || ['', 'T'])[1]]);
+};
+
 T.Page = class {
   constructor(runs) {
     const state = this.state = new T.State(runs);
-    for (const run of runs) {
-      run.worst = T.worstPlaces(run, 5);
-      run.hasHeight = run.z.some((v) => v !== run.z[0]);
-      run.tools = (run.text || []).map((line, k) => [k + 1, line]).filter(([, line]) => /\bM0?6\b/i.test(line.replace(/\(.*?\)|;.*/g, ''))).map(([k, line]) => [k, (line.match(/T\s*(\d+)/i) || ['', 'T'])[1]]);
-    }
+    runs.forEach(T.lookAt);
     if (runs.length > 1) {  // what the runs differ in comes first
       const differ = Object.assign(document.createElement('div'), {id: 'differ', className: 'card'});
       T.el('overview').append(T.el('errors'), differ);
@@ -123,12 +128,33 @@ T.Page = class {
     this.program.draw();
   }
 
+  // The same run with more rows. The cursor follows the last one unless it was moved by hand.
+  update(run) {
+    const {state} = this;
+    const isAtEnd = state.index >= state.runs[0].n - 1 || !this.isTouched;
+    state.runs[0] = this.program.run = run;
+    T.lookAt(run);
+    state.colour(T.colourings.find((c) => c.key === (state.colouring || {}).key) || T.colourings.find((c) => run[c.key]));
+    state.errorTop = run.absE ? T.topOf(run, 'absE') : 1;
+    T.showWorst(state);
+    T.showHistogram(state);
+    T.showFeeds(state);
+    T.showScale(state);
+    this.scene.isStale = true;
+    this.curves.update();
+    if (this.path.isMoved) this.path.draw();
+    else this.path.fit();
+    if (isAtEnd) state.set(run.n - 1, 'live');
+    this.cursorMoved('start');
+  }
+
   cursorMoved(from) {
     const run = this.state.runs[0];
     const i = this.state.index;
+    if (from !== 'live' && from !== 'start') this.isTouched = true;
     T.showNow(this.state);
     this.path.drawCursor();
-    if (from !== 'path') { this.path.tip.classList.remove('on'); if (from !== 'play' && from !== 'curves' && from !== 'start') this.path.show(i); }
+    if (from !== 'path') { this.path.tip.classList.remove('on'); if (from !== 'play' && from !== 'curves' && from !== 'start' && from !== 'live') this.path.show(i); }
     this.curves.showCursor();
     this.scene.draw();
     if (run.line) this.program.mark(run.line[i]);
@@ -247,6 +273,12 @@ T.Page = class {
 T.start = async () => {
   try {
     const list = JSON.parse(T.el('runs').textContent);
+    if (list[0].live) {
+      const bytes = await T.inflate(list[0].data);
+      if (list[0].text_bytes > 0) list[0].lines = T.linesOf(bytes.subarray(bytes.length - list[0].text_bytes));
+      T.live(list[0]);
+      return;
+    }
     const runs = [];
     for (const [k, meta] of list.entries()) runs.push(await T.readRun(meta, k));
     T.page = new T.Page(runs);

@@ -159,7 +159,15 @@ T.showLimits = (state) => {
     const share = audit[key] / limit;
     const at = places[place];
     return `<tr${at ? ` class="go" data-time="${at.t_s}" tabindex="0"` : ''}><td>${name} <small>${unit}</small></td><td>${T.number(audit[key], 1)}</td><td>${T.number(limit, 1)}</td><td>${at ? T.number(at.t_s, 3) : '–'}</td><td class="text">${verdict(share)}</td></tr>`;
-  }).join('')}</tbody></table></div>`;
+  }).join('')}</tbody></table></div>${T.loops(run)}`;
+};
+
+// Position loops, as the machine file's model has them.
+T.loops = (run) => {
+  const loops = run.summary.loops;
+  if (!loops) return '';
+  const row = (name) => `<tr><td>position loop, ${name}</td><td>${T.number(loops[name].bandwidth_Hz, 1)}</td><td>${T.number(loops[name].phase_margin_deg, 1)}</td><td>${T.number(loops[name].gain_margin, 2)}</td></tr>`;
+  return `<table class="loops"><thead><tr><th></th><th>bandwidth, Hz</th><th>phase margin, °</th><th>gain margin</th></tr></thead><tbody>${row('x')}${row('y')}</tbody></table>`;
 };
 
 // Bars as SVG. A bar has a share, or shares of several runs side by side.
