@@ -193,7 +193,7 @@ const test = async (name, body) => {
   });
 
   await test('a run on the wall clock is seen while it goes on', async () => {
-    const child = spawn(twin, ['run', 'part.nc', '--out', 'live', '--realtime', '--view', '0', '--no-plots', '--quiet'], {cwd: folder});
+    const child = spawn(twin, ['run', 'part.nc', '--out', 'live', '--realtime', '--view', '0', '--feedrate-mm-per-min', '1200', '--no-plots', '--quiet'], {cwd: folder});
     let said = '';
     child.stderr.on('data', (text) => { said += text; });
     const ended = new Promise((resolve) => { child.on('exit', resolve); });

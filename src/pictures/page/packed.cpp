@@ -58,12 +58,17 @@ PackedColumn Packer::add(std::string name, const std::vector<double>& values, do
       order = k;
     }
   }
-  for (unsigned plane = 0; plane < 4; ++plane) {
+  std::uint32_t all = 0;
+  for (const std::int32_t d : best) {
+    all |= folded(d);
+  }
+  const auto planes = static_cast<unsigned>(std::bit_width(all) + 7) / 8;
+  for (unsigned plane = 0; plane < planes; ++plane) {
     for (const std::int32_t d : best) {
       bytes_.push_back(static_cast<char>((folded(d) >> (8 * plane)) & 0xFFU));
     }
   }
-  return {std::move(name), step, order, values.size()};
+  return {std::move(name), step, order, planes, values.size()};
 }
 
 Expected<std::string> Packer::finish() const {

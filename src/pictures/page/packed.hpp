@@ -16,6 +16,7 @@ struct PackedColumn {
   std::string name;
   double step = 1.0;      ///< unit of its whole numbers, in the unit of the name
   int order = 0;          ///< how often the page must sum up to have them
+  unsigned planes = 0;    ///< bytes of its largest difference
   std::size_t count = 0;  ///< of its numbers
 };
 
@@ -23,8 +24,8 @@ struct PackedColumn {
 ///
 /// A column of count numbers x becomes the whole numbers q = round(x / step), of which differences
 /// of order 0 to 3 are taken, whichever are smallest. A difference d is stored as the unsigned
-/// number 2 |d| - (d < 0), low bytes of all the numbers first, then the next bytes: four planes of
-/// count bytes.
+/// number 2 |d| - (d < 0), low bytes of all the numbers first, then the next bytes: planes of count
+/// bytes, as many as the largest one needs.
 class Packer {
  public:
   /// Appends a column. A number that is not finite or too large for 32 bits is taken as the nearest

@@ -17,6 +17,7 @@ Json json_of(const PackedColumn& column) {
   return {{"name", column.name},
           {"step", column.step},
           {"order", column.order},
+          {"planes", column.planes},
           {"count", column.count}};
 }
 

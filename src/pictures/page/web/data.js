@@ -18,14 +18,15 @@ T.inflate = async (text) => {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 };
 
-// A column from its four planes of bytes: differences, folded so that small ones are small.
+// A column from its planes of bytes: differences, folded so that small ones are small.
 T.unpack = (bytes, at, column) => {
   const n = column.count;
   const q = new Int32Array(n);
-  for (let i = 0; i < n; ++i) {
-    const u = (bytes[at + i] | bytes[at + n + i] << 8 | bytes[at + 2 * n + i] << 16 | bytes[at + 3 * n + i] << 24) >>> 0;
-    q[i] = (u >>> 1) ^ -(u & 1);
+  for (let plane = 0; plane < column.planes; ++plane) {
+    const from = at + plane * n;
+    for (let i = 0; i < n; ++i) q[i] |= bytes[from + i] << (8 * plane);
   }
+  for (let i = 0; i < n; ++i) q[i] = (q[i] >>> 1) ^ -(q[i] & 1);
   for (let k = 0; k < column.order; ++k) {
     for (let i = 1; i < n; ++i) q[i] = (q[i] + q[i - 1]) | 0;
   }
@@ -45,14 +46,14 @@ T.readRun = async (meta, number) => {
   let at = 0;
   for (const column of meta.columns) {
     c[column.name] = T.unpack(bytes, at, column);
-    at += 4 * column.count;
+    at += column.planes * column.count;
   }
   const run = T.runOf(meta, number, c);
   if (meta.outline) {
     run.outline = {lifts: meta.lifts};
     for (const [k, column] of meta.outline.entries()) {
       run.outline[k ? 'y' : 'x'] = T.unpack(bytes, at, column);
-      at += 4 * column.count;
+      at += column.planes * column.count;
     }
     if (meta.text_bytes > 0) run.text = T.linesOf(bytes.subarray(at, at + meta.text_bytes));
   }

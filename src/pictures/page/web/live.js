@@ -1,6 +1,7 @@
 // A run that is under way: rows come as server-sent events, and the page follows them.
 
 T.live = (meta) => {
+  meta.is_live = true;
   let columns = null;
   let isNew = false;
   const take = (event) => {
@@ -33,6 +34,7 @@ T.live = (meta) => {
     clearInterval(timer);
     show();
     meta.live = false;
+    if (T.page) T.header(T.page.state);
     T.el('notice').hidden = false;
     T.el('notice').textContent = text;
     document.documentElement.dataset.ended = '1';

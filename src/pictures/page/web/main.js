@@ -49,7 +49,7 @@ T.header = (state) => {
   const s = run.summary;
   T.el('name').textContent = state.runs.length > 1 ? state.runs.map((r) => r.name).join('  ·  ') : s.program || run.name;
   const planner = s.planner === 'certified' ? 'certified planner' : [s.planner && `${s.planner} planner`, s.interpolator].filter(Boolean).join(', ');
-  T.el('about').textContent = [s.machine && (s.hal === 'none' ? `planned for ${s.machine}` : `on ${s.machine} (${s.hal})`), planner, `period ${T.number(run.period * 1e3, 3).replace(/\.?0+$/, '')} ms`, s.version && `twin ${s.version}`].filter(Boolean).join(' · ');
+  T.el('about').textContent = [s.machine && (s.hal === 'none' ? `planned for ${s.machine}` : `on ${s.machine} (${s.hal})`), planner, !run.meta.is_live && `period ${T.number(run.period * 1e3, 3).replace(/\.?0+$/, '')} ms`, s.version && `twin ${s.version}`].filter(Boolean).join(' · ');
   const badges = [];
   if (run.meta.live) badges.push('<span class="badge bad">live</span>');
   if (state.runs.some((r) => r.meta.partial)) badges.push('<span class="badge bad">ended early</span>');
@@ -66,7 +66,8 @@ T.header = (state) => {
   T.el('notice').hidden = !notes.length;
   T.el('notice').textContent = notes.join(' ');
   T.el('keys').innerHTML = state.runs.length > 1 ? '' : T.keyFigures(state);
-  T.el('keys').hidden = state.runs.length > 1 || Boolean(run.meta.live);
+  T.el('keys').hidden = state.runs.length > 1 || Boolean(run.meta.is_live);
+  T.el('errors').hidden = T.el('limits').hidden = Boolean(run.meta.is_live);  // figures of the whole run
 };
 
 T.showScale = (state) => {
