@@ -62,6 +62,11 @@ Optional bound_ratio(const Summary& s) {
   return s.time_bound ? Optional(s.planned_time / *s.time_bound) : Optional();
 }
 
+/// Left out where there are none.
+Optional plan_fallbacks(const Summary& s) {
+  return s.plan_fallbacks > 0 ? Optional(static_cast<double>(s.plan_fallbacks)) : Optional();
+}
+
 double at_least_one(std::int64_t count) {
   return static_cast<double>(std::max<std::int64_t>(count, 1));
 }
@@ -120,6 +125,8 @@ constexpr auto kQuantities = std::to_array<Quantity>({
          "path length", "", "mm", 3, kPath, kMeasure, get<same, &S::path_length>},
     {"planned_time_s", "/planned_time_s",
          "planned time", "", "s", 3, kPath, kMeasure, get<same, &S::planned_time>},
+    {"plan_fallbacks", "/plan_fallbacks",
+         "plan fallbacks", "", "", 0, kPath, kCount, plan_fallbacks},
     {"time_bound_s", "/time_bound_s",
          "lower bound of the time", "", "s", 3, kPath, kMeasure, get<same, &S::time_bound>},
     {"bound_ratio", "/bound_ratio",

@@ -1,10 +1,12 @@
 #include "feedrate/certified/certified_limits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "feedrate/limits/axis_limits.hpp"
+#include "path/passage.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -22,10 +24,6 @@ constexpr double kTwistMargin = 1.05;
 /// bend in two, each of which may then seem brief; a smaller one joins neighbours that are two
 /// corners.
 constexpr double kValley = 0.5;
-
-/// Beside a bend the curvature is below this share of its peak. What lies beside a brief bend is
-/// not held at the bend's feedrate; a larger share would leave more of its flanks to the ramps.
-constexpr double kBesideBend = 0.01;
 
 /// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
 /// changes along it. With twice as many, half as much is lost by taking the worst of each part.
@@ -58,6 +56,34 @@ constexpr double kAnyTurn = 0.25;
 /// Share of A by which the acceleration changes in a period, J T / A, from which it swings. Below,
 /// the part of the tangential acceleration is small.
 constexpr double kSwing = 0.25;
+
+/// Ratios of the accelerations and of the jerks that are told apart where they change along a curve.
+/// Larger steps leave less of them, smaller ones make more places where they change.
+constexpr double kAccelerationStep = 1.25;
+constexpr double kJerkStep = 1.06;
+
+/// The highest step that is not above a value, counted from the value on a line.
+double on_step(double value, double most, double step) {
+  if (!(value < most)) {
+    return most;
+  }
+  return most * std::pow(step, -std::ceil(std::log(most / value) / std::log(step) - 1e-9));
+}
+
+/// Lowers acceleration and jerk of a zone to steps, so that they change in few places.
+void put_on_steps(const RampLimits& most, LimitZone& zone) {
+  zone.acceleration = on_step(zone.acceleration, most.acceleration, kAccelerationStep);
+  zone.deceleration = on_step(zone.deceleration, most.acceleration, kAccelerationStep);
+  zone.jerk = on_step(zone.jerk, most.jerk, kJerkStep);
+}
+
+/// Feedrate at which the normal acceleration leaves room for a tangential one A that swings within a
+/// period. With it the direction turns by kappa v T, and so much of A is square to the path:
+///   kappa v^2 + kappa v T A = A.
+double swinging_feedrate(double curvature, double acceleration, double period) {
+  const double b = curvature * period * acceleration;
+  return 2.0 * acceleration / (b + std::sqrt(b * b + 4.0 * curvature * acceleration));
+}
 
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
@@ -94,6 +120,12 @@ PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByAr
   };
   PathBounds bounds;
   const Vec3 bulge = (c.third - 0.5 * (a.third + b.third)).cwiseAbs();
+  for (int i = 0; i < 3; ++i) {
+    const std::array<double, 3> signs{a.second[i] * a.third[i], c.second[i] * c.third[i],
+                                      b.second[i] * b.third[i]};
+    const auto [least, most] = std::minmax_element(signs.begin(), signs.end());
+    bounds.trend[i] = *least >= 0.0 ? 1.0 : *most <= 0.0 ? -1.0 : 0.0;
+  }
   bounds.twist = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
   bounds.curvature = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist;
   bounds.tangent = (largest(a.first, c.first, b.first) + 0.25 * length * bounds.curvature)
@@ -112,7 +144,14 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       chord_error_(path.chord_error),
       period_(period),
       corner_error_(model.corner_error),
-      has_axis_limits_(has_axis_limits(limits)) {}
+      has_axis_limits_(has_axis_limits(limits)),
+      least_jerk_(limits.jerk) {
+  for (int i = 0; i < 3; ++i) {
+    if (limits.axis_jerk[i] > 0.0) {
+      least_jerk_ = std::min(least_jerk_, limits.axis_jerk[i]);
+    }
+  }
+}
 
 /// Feedrate at which any turn at all may lie within a period: it changes the velocity by less than
 /// A and J allow [mm/s].
@@ -135,6 +174,11 @@ double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On w
   double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
+    if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
+      limit =
+          std::min(limit, std::max(swinging_feedrate(at.curvature, limits_.acceleration, period_),
+                                   any_turn_feedrate()));
+    }
     if (const double turn = most_turn(interval); std::isfinite(turn)) {
       limit = std::min(limit, std::max(turn / (at.curvature * period_), any_turn_feedrate()));
     }
@@ -154,6 +198,7 @@ void CertifiedLimits::find_intervals(const path::FittedCurve& curve) {
 /// Marks the intervals of brief bends. A bend that is cut by an end of the curve counts as one that
 /// lasts.
 void CertifiedLimits::find_brief_bends() {
+  peaks_.clear();
   std::size_t begin = 0;
   while (begin < intervals_.size()) {
     double peak = intervals_[begin].curvature;
@@ -178,38 +223,81 @@ void CertifiedLimits::find_brief_bends() {
     for (std::size_t i = begin; i < end; ++i) {
       intervals_[i].is_brief = is_brief;
       intervals_[i].is_winding = turn >= kWinding;
-      intervals_[i].is_held = is_brief && i > begin && intervals_[i].curvature > kBesideBend * peak;
+    }
+    if (is_brief && (limits_.axis_jerk.array() > 0.0).any()) {
+      add_peak(begin, end, turn);
     }
     begin = end;
   }
 }
 
+/// Adds the middle of a brief bend: where its two most curved intervals meet.
+void CertifiedLimits::add_peak(std::size_t first, std::size_t last, double turn) {
+  const auto most = std::max_element(
+      intervals_.begin() + static_cast<std::ptrdiff_t>(first),
+      intervals_.begin() + static_cast<std::ptrdiff_t>(last),
+      [](const Interval& a, const Interval& b) { return a.curvature < b.curvature; });
+  std::size_t at = static_cast<std::size_t>(most - intervals_.begin());
+  if (at + 1 < last && intervals_[at + 1].curvature == most->curvature) {
+    ++at;
+  }
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Peak peak{at, turn / most->curvature, kFar};
+  if (!peaks_.empty()) {
+    Peak& before = peaks_.back();
+    peak.room = 0.5 * (intervals_[at].begin - intervals_[before.interval].begin);
+    before.room = std::min(before.room, peak.room);
+  }
+  peaks_.push_back(peak);
+}
+
+/// Limit of the middle of a brief bend [mm/s].
+/// @param limit  that of the bend beside it [mm/s]
+double CertifiedLimits::dip_limit(const Peak& peak, double limit, double feedrate) const {
+  const double reached =
+      std::isfinite(peak.room) ? path::feedrate_within(peak.room, feedrate, least_jerk_) : feedrate;
+  return limit * path::best_passage(peak.half, limit, reached, least_jerk_).dip;
+}
+
+/// Lowers the limits of an interval of a curve to what the axes allow.
+void CertifiedLimits::keep_axes(const path::FittedCurve& curve, std::size_t interval,
+                                LimitZone& zone) const {
+  const double u0 = curve.curvature[interval].u;
+  const double u1 = curve.curvature[interval + 1].u;
+  const int span = curve.curve.find_span(0.5 * (u0 + u1));
+  const auto from = curve.curve.derivatives(u0, span);
+  const auto to = curve.curve.derivatives(u1, span);
+  const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
+  const Vec3 third = (to.second - from.second) / (u1 - u0);
+  keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
+                                  by_arc_length(to, third), zone.end - zone.begin),
+                   limits_, intervals_[interval].is_brief ? BendKind::kBrief : BendKind::kLasting,
+                   zone);
+  put_on_steps(ramp_, zone);
+}
+
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
   find_intervals(curve);
+  peaks_.clear();
   if (!curve.is_programmed) {
     find_brief_bends();
   }
   ZoneRow row(zones);
+  auto peak = peaks_.begin();
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval& interval = intervals_[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end,
                    limit_at(interval, feedrate, On::kCurve)};
     if (has_axis_limits_) {
-      const double u0 = curve.curvature[i].u;
-      const double u1 = curve.curvature[i + 1].u;
-      const int span = curve.curve.find_span(0.5 * (u0 + u1));
-      const auto from = curve.curve.derivatives(u0, span);
-      const auto to = curve.curve.derivatives(u1, span);
-      const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
-      const Vec3 third = (to.second - from.second) / (u1 - u0);
-      keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
-                                      by_arc_length(to, third), interval.end - interval.begin),
-                       limits_, zone);
+      keep_axes(curve, i, zone);
     }
-    if (has_axis_limits_ && interval.is_held && !row.is_empty()) {
-      zone.limit = std::min(zone.limit, row.last().limit);
-      row.lower_last(zone.limit);
+    if (peak != peaks_.end() && peak->interval == i) {
+      const double dip = dip_limit(*peak, zone.limit, feedrate);
+      if (dip < zone.limit && !row.is_empty()) {
+        row.append({zone.begin, zone.begin, dip});
+      }
+      ++peak;
     }
     row.append(zone);
   }
@@ -234,7 +322,10 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
         return {p.tangent, p.curvature, -p.curvature.squaredNorm() * p.tangent};
       };
       keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
-                       limits_, zone);
+                       limits_, BendKind::kLasting, zone);
+      if (parts > 1) {
+        put_on_steps(ramp_, zone);
+      }
     }
     row.append(zone);
   }

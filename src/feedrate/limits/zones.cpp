@@ -63,24 +63,24 @@ bool is_tilted(const path::Arc& arc) {
 
 }  // namespace
 
+bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept {
+  return a.acceleration == b.acceleration && a.deceleration == b.deceleration && a.jerk == b.jerk;
+}
+
 void ZoneRow::append(const LimitZone& zone) {
   if (!is_empty()) {
     LimitZone& before = zones_.back();
     const double low = std::min(before.limit, zone.limit);
-    if (std::max(highest_, zone.limit) <= kSameLimit * low) {
+    if (std::max(highest_, zone.limit) <= kSameLimit * low && has_same_ramp(before, zone)) {
       highest_ = std::max(highest_, zone.limit);
       before.limit = low;
       before.end = zone.end;
-      before.acceleration = std::min(before.acceleration, zone.acceleration);
-      before.jerk = std::min(before.jerk, zone.jerk);
       return;
     }
   }
   highest_ = zone.limit;
   zones_.push_back(zone);
 }
-
-void ZoneRow::lower_last(double limit) noexcept { highest_ = zones_.back().limit = limit; }
 
 void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
                            const FeedrateRules& rules, std::vector<LimitZone>& zones) {

@@ -105,6 +105,7 @@ struct Summary {
   double compression_factor = 0.0;       ///< number of short blocks per fitted curve [-]
   double path_length = 0.0;              ///< [mm]
   double planned_time = 0.0;             ///< time of motion without override, by the plan [s]
+  std::int64_t plan_fallbacks = 0;       ///< times that no plan within all limits was found [-]
   std::optional<double> time_bound;      ///< lower bound of planned_time, if asked for [s]
   std::optional<double> planning_time;   ///< wall-clock time of planning, if measured [s]
   std::vector<OverrideRecord> overrides;

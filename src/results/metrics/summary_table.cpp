@@ -86,6 +86,12 @@ TextTable path_table(const Summary& s) {
                         with_unit(s, "time_bound_s"));
   }
   add(table, "planned time", time);
+  if (s.plan_fallbacks > 0) {
+    add(table, "plan fallbacks",
+        fmt::format("{}: there is no plan within all limits, and a slower one or one that stops "
+                    "was taken",
+                    value(s, "plan_fallbacks")));
+  }
   if (!s.overrides.empty()) {
     add(table, "feed override", override_text(s.overrides));
   }

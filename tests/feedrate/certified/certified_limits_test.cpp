@@ -69,16 +69,21 @@ TEST(CertifiedLimits, EveryAxisIsKeptBetweenTheSamplesByDifferencesOfThePath) {
     const path::PathPoint at = place(fitted, s);
     const Vec3 twist =
         (place(fitted, high).curvature - place(fitted, low).curvature) / (high - low);
-    const double v = zone.limit;
-    const double a = std::min(zone.acceleration, limits.acceleration);
+    const double speeding_up = std::min(zone.acceleration, limits.acceleration);
+    const double braking = std::min(zone.deceleration, limits.acceleration);
     const double j = std::min(zone.jerk, limits.jerk);
-    for (int i = 0; i < 2; ++i) {
-      const double t = std::abs(at.tangent[i]);
-      const double k = std::abs(at.curvature[i]);
-      EXPECT_LE(t * v, limits.axis_feedrate[i] * (1.0 + 1e-6));
-      EXPECT_LE(t * a + k * v * v, limits.axis_acceleration[i] * (1.0 + 1e-6));
-      EXPECT_LE(t * j + 3.0 * k * v * a + std::abs(twist[i]) * v * v * v,
-                limits.axis_jerk[i] * 1.001);
+    for (const double v : {0.5 * zone.limit, zone.limit}) {
+      for (const double a : {speeding_up, 0.0, -braking}) {
+        for (int i = 0; i < 2; ++i) {
+          const double t = at.tangent[i];
+          const double k = at.curvature[i];
+          EXPECT_LE(std::abs(t) * v, limits.axis_feedrate[i] * (1.0 + 1e-6));
+          EXPECT_LE(std::abs(t * a) + std::abs(k) * v * v,
+                    limits.axis_acceleration[i] * (1.0 + 1e-6));
+          EXPECT_LE(std::abs(t) * j + std::abs(3.0 * k * v * a + twist[i] * v * v * v),
+                    limits.axis_jerk[i] * 1.001);
+        }
+      }
     }
   });
 }
