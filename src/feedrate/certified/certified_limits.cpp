@@ -106,6 +106,18 @@ ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
           (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
 }
 
+/// C''' of an arc. On a helix of radius r and rise 2 pi p, with c^2 = r^2 + p^2, it is the part of C'
+/// across the axis, of length r / c, times -1 / c^2; and |C''| = r / c^2. So with that part T
+///   C''' = -(|C''| / |T|)^2 T.
+Vec3 arc_twist(const geometry::Arc& arc, const path::PathPoint& at) {
+  const Vec3 across = arc.e1.dot(at.tangent) * arc.e1 + arc.e2.dot(at.tangent) * arc.e2;
+  const double square = across.squaredNorm();
+  if (!(square > 0.0)) {
+    return Vec3::Zero();
+  }
+  return -(at.curvature.squaredNorm() / square) * across;
+}
+
 /// Upper bounds of |C'|, |C''| and |C'''| between two places a and b, from their values at a, at b
 /// and at the midpoint c.
 ///
@@ -318,8 +330,8 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
     if (has_axis_limits_) {
       const auto at = [&](double s) -> ByArcLength {
         const path::PathPoint p = arc != nullptr ? path::point_at(*arc, s) : segment.begin;
-        // K' of a circle is -kappa^2 T, of a helix less.
-        return {p.tangent, p.curvature, -p.curvature.squaredNorm() * p.tangent};
+        return {p.tangent, p.curvature,
+                arc != nullptr ? arc_twist(arc->geometry, p) : Vec3::Zero()};
       };
       keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
                        limits_, BendKind::kLasting, zone);

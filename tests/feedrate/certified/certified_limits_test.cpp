@@ -88,6 +88,31 @@ TEST(CertifiedLimits, EveryAxisIsKeptBetweenTheSamplesByDifferencesOfThePath) {
   });
 }
 
+// The third derivative of a helix is larger than kappa^2: its axis turns with 1 / c^2.
+TEST(CertifiedLimits, TheJerkOfAxesIsKeptOnASteepHelix) {
+  Limits limits;
+  limits.axis_jerk = {30000.0, 30000.0, 0.0};
+  CertifiedLimits certified(limits, {}, {}, 1e-3);
+  const auto segments = build({test::arc_block({0, 0, 0}, {1, 0, 0}, 0.1, 6.0, true, 50.0, 0.5)});
+  const auto& arc = std::get<path::Arc>(segments.front().geometry);
+  std::vector<LimitZone> zones;
+  certified.append(segments.front(), 0.0, 50.0, zones);
+  double largest = 0.0;
+  for (const LimitZone& zone : zones) {
+    const double s = 0.5 * (zone.begin + zone.end);
+    const double h = 1e-6;
+    const Vec3 twist =
+        (path::point_at(arc, s + h).curvature - path::point_at(arc, s - h).curvature) / (2.0 * h);
+    const double v = zone.limit;
+    for (int i = 0; i < 2; ++i) {
+      largest = std::max(largest, std::abs(path::point_at(arc, s).tangent[i]) * zone.jerk +
+                                      std::abs(twist[i]) * v * v * v);
+    }
+  }
+  EXPECT_LE(largest, 30000.0 * 1.001);
+  EXPECT_GE(largest, 30000.0 * 0.5);
+}
+
 /// A square's corner of 90 degrees rounded by an arc of chords of this radius.
 double lowest_limit_at_corner(double radius) {
   std::vector<Vec3> points{{-5, 0, 0}};
