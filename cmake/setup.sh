@@ -103,6 +103,25 @@ install_missing() {
   logged install_packages "${names[@]}"
 }
 
+# Gets what the test in a browser needs: Chromium from Debian, playwright-core from npm. It is tried once a build folder,
+# and what cannot be had is left out: that test then says what it lacks and is skipped.
+set_up_browser() {
+  local folder=$TWIN_BUILD/browser as_root=()
+  [[ ${TWIN_NO_INSTALL:-} != 1 && ! -f $folder/.tried ]] || return 0
+  mkdir -p "$folder"
+  touch "$folder/.tried"
+  ((EUID == 0)) || as_root=(sudo -n)
+  stage "getting a browser for the tests"
+  if ! command -v chromium >/dev/null && command -v dpkg-query >/dev/null; then
+    (install_packages chromium) >"$folder/install.log" 2>&1 || true
+  fi
+  if [[ ! -d $folder/node_modules/playwright-core ]] && command -v npm >/dev/null; then
+    timeout 60 npm install --prefix "$folder" --no-save --no-audit --no-fund playwright-core@1.65.1 \
+      >>"$folder/install.log" 2>&1 || true
+  fi
+  stage_done
+}
+
 # build <program|tests|fuzz> <ninja target>
 #
 # One tree and one set of flags for the program and its tests; the programs of libFuzzer are clang's, with sanitizers, in

@@ -41,7 +41,9 @@ AxisForces TableAxis::step(const AxisMotion& motion, double time) noexcept {
   signals.limit_negative = is_limit_negative(motion.position);
   AxisForces forces;
   forces.torque = drive_.step(delay_.step(volts_), motion.motor_speed, time, signals);
-  forces.slide = end_stop(motion) - friction_.step(motion.velocity);
+  resistance_ = friction_.step(motion.velocity);
+  forces.slide = end_stop(motion) - resistance_;
+  torque_ = forces.torque;
   return forces;
 }
 

@@ -45,6 +45,10 @@ class TableAxis {
   }
 
   const Drive& drive() const noexcept { return drive_; }
+  double torque() const noexcept { return torque_; }  ///< of the motor, in the last step [N.m]
+  double friction() const noexcept {
+    return resistance_;
+  }  ///< against motion, in the last step [N]
   bool is_limit_positive(double position) const noexcept {
     return is_forced_positive_ || position >= travel_;
   }
@@ -59,7 +63,9 @@ class TableAxis {
   DelayLine delay_;
   Drive drive_;
   Lugre friction_;
-  double volts_ = 0.0;  // at the terminals [V]
+  double volts_ = 0.0;       // at the terminals [V]
+  double torque_ = 0.0;      // of the motor in the last step [N.m]
+  double resistance_ = 0.0;  // friction in the last step [N]
   bool servo_on_ = false;
   bool is_forced_positive_ = false;
   bool is_forced_negative_ = false;

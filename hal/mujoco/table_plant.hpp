@@ -56,6 +56,10 @@ class TablePlant {
   double velocity(std::size_t axis) const noexcept;          ///< velocity of the slide [mm/s]
   double encoder_position(std::size_t axis) const noexcept;  ///< motor angle as travel [mm]
   double pen_position() const noexcept;                      ///< position of the pen slide [mm]
+  /// Torque of the motor in the last physics step [N.m].
+  double torque(std::size_t axis) const noexcept { return axes_[axis].torque(); }
+  /// Friction of the slide in the last physics step, positive against positive motion [N].
+  double friction(std::size_t axis) const noexcept { return axes_[axis].friction(); }
   bool is_ready(std::size_t axis) const noexcept { return axes_[axis].drive().is_ready(); }
   bool has_alarm(std::size_t axis) const noexcept { return axes_[axis].drive().has_alarm(); }
   bool is_limit_positive(std::size_t axis) const noexcept;

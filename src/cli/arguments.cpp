@@ -140,6 +140,9 @@ class ArgumentParser {
     add<CheckArguments>(app_, "check",
                         "Read and verify programs and estimate their cycle time; nothing moves");
     add<RenderArguments>(app_, "render", "Plots and video again, from the trace in a folder");
+    add<ReportArguments>(app_, "report",
+                         "A page to look at, from the trace in a folder; of several folders one "
+                         "page that compares the runs");
     add<CompareArguments>(
         app_, "compare",
         "Planners and interpolators side by side on one program, the parameter updates too; a "

@@ -50,6 +50,10 @@ struct HalArguments {
 struct ResultArguments {
   std::filesystem::path folder;  ///< --out; empty: one below renders
   bool has_plots = true;         ///< without --no-plots
+  bool has_page = true;          ///< without --no-report
+  bool has_trace = true;         ///< without --no-trace
+  bool has_json = false;         ///< --json: the summary goes to stdout as it is in the file
+  std::string columns;           ///< --columns, of the trace; empty: the default ones
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -92,6 +96,12 @@ struct RenderArguments {
   MachineArguments machine;
   bool has_plots = true;
   VideoArguments video;
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct ReportArguments {
+  std::vector<std::filesystem::path> folders;  ///< of runs
+  std::filesystem::path file;                  ///< the page; empty: report.html
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -205,10 +215,10 @@ struct TextArguments {
 /// What a command line asks for.
 using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
-                 CompareArguments, ReproduceArguments, CircleArguments, IdentifyArguments,
-                 ConvertArguments, BatchArguments, SweepArguments, RigProbeArguments,
-                 RigMonitorArguments, RigCheckArguments, RigJogArguments, RigHomeArguments,
-                 RigEmulateArguments>;
+                 ReportArguments, CompareArguments, ReproduceArguments, CircleArguments,
+                 IdentifyArguments, ConvertArguments, BatchArguments, SweepArguments,
+                 RigProbeArguments, RigMonitorArguments, RigCheckArguments, RigJogArguments,
+                 RigHomeArguments, RigEmulateArguments>;
 
 /// Reads a command line.
 ///

@@ -151,6 +151,21 @@ void add_results(CLI::App& command, ResultArguments& results,
   add_quiet(command, results.verbosity);
 }
 
+/// What a run or a plan leaves and says.
+void add_run_results(CLI::App& command, ResultArguments& results) {
+  add_results(command, results);
+  command.add_flag_callback(
+      "--no-report", [&results] { results.has_page = false; }, "Write no report.html");
+  command
+      .add_option("--columns", results.columns,
+                  "Columns of trace.csv: names, default, all, as in default,path_mm,x_torque_Nm")
+      ->type_name("NAME,...");
+  command.add_flag_callback(
+      "--no-trace", [&results] { results.has_trace = false; },
+      "Write the summary alone: no trace, and so no plots and no report");
+  command.add_flag("--json", results.has_json, "Print summary.json in place of the table");
+}
+
 /// Results of which there are no plots.
 void add_last_results(CLI::App& command, ResultArguments& results, const std::string& text) {
   command.add_option("--out", results.folder, text)->type_name("DIR");
@@ -196,7 +211,7 @@ void add_options(CLI::App& command, RunArguments& run) {
         return std::string(name.empty() ? "the socket needs a name" : "");
       })
       ->type_name("PATH");
-  add_results(command, run.results);
+  add_run_results(command, run.results);
   add_video(command, run.video);
 }
 
@@ -207,7 +222,7 @@ void add_options(CLI::App& command, PlanArguments& plan) {
   command.add_flag("--bound", plan.has_bound,
                    "The lower bound of the time as well: the same path without jerk limit");
   add_overrides(command, plan.overrides);
-  add_results(command, plan.results);
+  add_run_results(command, plan.results);
 }
 
 void add_options(CLI::App& command, CheckArguments& check) {
@@ -227,6 +242,19 @@ void add_options(CLI::App& command, RenderArguments& render) {
   add_no_plots(command, render.has_plots);
   add_quiet(command, render.verbosity);
   add_video(command, render.video);
+}
+
+void add_options(CLI::App& command, ReportArguments& report) {
+  command
+      .add_option("directories", report.folders,
+                  "Folders of earlier runs; several are shown on one page, over each other")
+      ->required()
+      ->type_name("DIR ...");
+  command
+      .add_option("--out", report.file,
+                  "The page to write [DIR/report.html, of several runs renders/report.html]")
+      ->type_name("FILE.html");
+  add_quiet(command, report.verbosity);
 }
 
 void add_options(CLI::App& command, CompareArguments& compare) {

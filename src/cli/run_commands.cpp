@@ -1,7 +1,10 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
@@ -10,6 +13,7 @@
 #include "results/metrics/summary.hpp"
 #include "runtime/program_check.hpp"
 #include "session/pictures.hpp"
+#include "session/report.hpp"
 #include "session/session.hpp"
 
 // The commands that read a program, run it and show what came of it; and help.
@@ -29,6 +33,8 @@ Expected<session::Request> request_of(const ProgramArguments& program,
   TWIN_TRY(request.program, read_program(program.name, stop, results.folder));
   request.feedrate = program.feedrate;
   request.folder = results.folder;
+  request.columns = results.columns;
+  request.has_trace = results.has_trace;
   if (!overrides.empty()) {
     TWIN_TRY(request.overrides, runtime::parse_override_schedule(overrides));
   }
@@ -65,19 +71,62 @@ Expected<runtime::RunResult> run_with_operator(session::Session& session, Verbos
   return session.run(attendance);
 }
 
-/// Prints what a run has shown, and hands on why it ended early.
-Expected<void> report_run(const session::Session& session, const runtime::RunResult& result,
-                          Verbosity verbosity) {
-  if (verbosity == Verbosity::kNormal) {
-    print_out("{}", results::to_table(result.summary, session.machine().limits));
+/// Page and plots of a run that ended early; what fails here is not said, because why the run ended
+/// is what matters. A user who interrupts does not wait for plots.
+void show_what_was_done(const session::Session& session, const Error& why,
+                        const ResultArguments& results) {
+  if (!results.has_trace) {
+    return;
   }
-  return result.failure ? tl::unexpected(*result.failure) : Expected<void>();
+  if (results.has_page) {
+    static_cast<void>(session.write_report());
+  }
+  if (results.has_plots && why.code != ErrorCode::kInterrupted) {
+    static_cast<void>(session.draw_figures());
+  }
 }
 
-/// Plots and video of what has been run, and where they are.
-Expected<void> make_pictures(const session::Session& session, const ResultArguments& results,
+/// Prints what a run has shown, and hands on why it ended early.
+Expected<void> report_run(const session::Session& session, const runtime::RunResult& result,
+                          const ResultArguments& results) {
+  if (results.has_json) {
+    print_out("{}", results::to_json(result.summary));
+  } else if (results.verbosity == Verbosity::kNormal) {
+    print_out("{}", results::to_table(result.summary, session.machine().limits));
+  }
+  if (!result.failure) {
+    return {};
+  }
+  show_what_was_done(session, *result.failure, results);
+  return tl::unexpected(*result.failure);
+}
+
+/// What the chosen columns suffice for; a note says what is left out.
+void leave_out_pictures(ResultArguments& results) {
+  const std::string columns = "," + results.columns + ",";
+  const auto has = [&columns](const char* name) {
+    return columns.find("," + std::string(name) + ",") != std::string::npos;
+  };
+  if (results.columns.empty() || has("default") || has("all")) {
+    return;
+  }
+  const bool has_page = has("t_s") && has("x_cmd_mm") && has("y_cmd_mm");
+  if (results.verbosity == Verbosity::kNormal && (results.has_plots || results.has_page)) {
+    print_note(has_page ? "no plots: they need the default columns"
+                        : "no plots and no report: they need the default columns");
+  }
+  results.has_plots = false;
+  results.has_page = results.has_page && has_page;
+}
+
+/// Page, plots and video of what has been run, and where they are.
+Expected<void> make_pictures(const session::Session& session, ResultArguments results,
                              const VideoArguments& video) {
-  if (results.has_plots) {
+  leave_out_pictures(results);
+  if (results.has_page && results.has_trace) {
+    TWIN_CHECK(session.write_report());
+  }
+  if (results.has_plots && results.has_trace) {
     Progress progress("plots", results.verbosity);
     progress.show(0.0);
     TWIN_CHECK(session.draw_figures());
@@ -86,8 +135,10 @@ Expected<void> make_pictures(const session::Session& session, const ResultArgume
     Progress progress("video", results.verbosity);
     TWIN_CHECK(session.render_video(video.camera, progress.callback()));
   }
-  if (results.verbosity == Verbosity::kNormal) {
-    print_out("results in {}\n", session.folder().string());
+  if (results.verbosity == Verbosity::kNormal && !results.has_json) {
+    const bool has_page = results.has_page && results.has_trace;
+    print_out("results in {}{}\n", session.folder().string(),
+              has_page ? "; look at report.html" : "");
   }
   return {};
 }
@@ -104,7 +155,7 @@ Expected<void> execute(const RunArguments& arguments, const Environment& environ
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
-  TWIN_CHECK(report_run(session, result, arguments.results.verbosity));
+  TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, arguments.video);
 }
 
@@ -117,7 +168,7 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const runtime::RunResult result,
            run_with_operator(session, arguments.results.verbosity, {}, environment.stop));
-  TWIN_CHECK(report_run(session, result, arguments.results.verbosity));
+  TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, {});
 }
 
@@ -125,12 +176,40 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
 
 namespace {
 
-/// The program of a trace, where it is still there and still the same.
+/// Words of a command line as it is quoted for a shell, without quotation marks.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words(1);
+  bool is_quoted = false;
+  for (const char c : command) {
+    if (c == '\'') {
+      is_quoted = !is_quoted;
+    } else if (c == ' ' && !is_quoted) {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+/// The program of a trace, where it is still there and still the same: by its name, or by the path
+/// that the command line of the run had.
 std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
                                              const std::atomic<bool>& stop) {
-  auto program = read_program(origin.program, stop);
-  const bool is_same = program && program->sha256() == origin.program_sha256;
-  return is_same ? std::optional(*std::move(program)) : std::nullopt;
+  std::vector<std::string> names{origin.program};
+  for (const std::string& word : words_of(origin.command)) {
+    const std::filesystem::path file(word);
+    if (file.filename() == origin.program || file.stem() == origin.program) {
+      names.push_back(word);
+    }
+  }
+  for (const std::string& name : names) {
+    auto program = read_program(name, stop);
+    if (program && program->sha256() == origin.program_sha256) {
+      return *std::move(program);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -145,13 +224,34 @@ Expected<void> execute(const RenderArguments& arguments, const Environment& envi
   if (arguments.has_plots) {
     Progress progress("plots", arguments.verbosity);
     progress.show(0.0);
-    TWIN_CHECK(session::draw_figures(
-        {arguments.folder, program_of(origin, environment.stop), origin.program, origin.kind}));
+    TWIN_CHECK(
+        session::draw_figures({arguments.folder, program_of(origin, environment.stop),
+                               origin.program, origin.kind, origin.trace.filename().string()}));
   }
   if (arguments.video.is_wanted) {
     Progress progress("video", arguments.verbosity);
     TWIN_CHECK(session::render_video({arguments.folder, machine.table.model, origin.program,
-                                      arguments.video.camera, progress.callback()}));
+                                      arguments.video.camera, progress.callback(),
+                                      origin.trace.filename().string()}));
+  }
+  return {};
+}
+
+// Report.
+
+Expected<void> execute(const ReportArguments& arguments, const Environment& environment) {
+  std::filesystem::path file = arguments.file;
+  if (file.empty()) {
+    file = (arguments.folders.size() == 1 ? arguments.folders.front()
+                                          : std::filesystem::path("renders")) /
+           session::kReportName;
+  }
+  TWIN_CHECK(session::write_report(
+      arguments.folders,
+      [&](const session::TraceOrigin& origin) { return program_of(origin, environment.stop); },
+      file));
+  if (arguments.verbosity == Verbosity::kNormal) {
+    print_out("{}\n", file.string());
   }
   return {};
 }

@@ -93,7 +93,8 @@ class Run {
   void run_threads();
   std::optional<Error> failure() const;
   void report_progress();
-  results::Summary summarise(double wall_time);
+  results::Summary summarise(double wall_time, const std::optional<Error>& failure);
+  void summarise_early_end(results::Summary& summary, const Error& failure);
 
   const RunRequest& request_;
   const Outlook& outlook_;
@@ -206,7 +207,17 @@ std::optional<Error> Run::failure() const {
   return describe_end(motion_, recorder_.last(), request_.hal);
 }
 
-results::Summary Run::summarise(double wall_time) {
+/// What was done where the run has ended early.
+void Run::summarise_early_end(results::Summary& summary, const Error& failure) {
+  summary.early_end = results::EarlyEnd{failure.message, std::nullopt};
+  summary.path_length = recorder_.path_length();
+  if (recorder_.samples() > 0) {
+    const results::Sample& last = recorder_.last();
+    summary.early_end->at = results::Place{last.t, last.command, last.line, last.segment};
+  }
+}
+
+results::Summary Run::summarise(double wall_time, const std::optional<Error>& failure) {
   const config::MachineFile& machine = request_.machine;
   const PlanFigures figures = planner_.figures();
   results::Summary summary;
@@ -237,6 +248,9 @@ results::Summary Run::summarise(double wall_time) {
   }
   summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
+  if (failure) {
+    summarise_early_end(summary, *failure);
+  }
   if (summary.run) {
     summary.run->real_time_factor = summary.run->machining_time / wall_time;
     if (summary.run->realtime) {
@@ -272,7 +286,7 @@ Expected<RunResult> Run::execute() {
   result.trip = motion_.trip;
   result.met_at = motion_.met_at;
   result.rest_at = motion_.rest_at;
-  result.summary = summarise(wall_time);
+  result.summary = summarise(wall_time, result.failure);
   if (!result.failure) {
     if (auto saved = recorder_.commit(); !saved) {
       result.failure = std::move(saved).error();

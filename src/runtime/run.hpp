@@ -16,6 +16,7 @@
 #include "hal/machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "results/metrics/summary.hpp"
+#include "results/trace/columns.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
@@ -36,7 +37,9 @@ struct RunTask {
 /// Where the results of a run go.
 struct RunOutput {
   std::filesystem::path directory;              ///< made when missing; empty: no file is written
+  bool has_trace = true;                        ///< whether the rows go to trace.csv
   std::vector<TraceSink*> sinks;                ///< get the rows of the trace, besides the files
+  results::ColumnChoice columns;                ///< of the trace; empty: the default ones
   Durability durability = Durability::kSynced;  ///< of the trace
   std::string command;  ///< command line or the caller's own words, for the summary
 };

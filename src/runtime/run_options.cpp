@@ -39,7 +39,9 @@ WallClockPace::Options wall_clock_options(const RunRequest& request) {
 
 Recorder::Options recorder_options(const RunRequest& request) {
   return {.directory = request.directory,
+          .has_trace = request.has_trace,
           .sinks = request.sinks,
+          .columns = request.columns,
           .limits = request.machine.limits,
           .period = request.machine.period,
           .has_machine = request.hal != nullptr,

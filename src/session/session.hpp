@@ -49,7 +49,9 @@ struct Request {
   std::filesystem::path folder;    ///< folder of the results; empty: renders/NAME of the program
   Files files = Files::kWritten;
   std::vector<TraceSink*> sinks{};  ///< get the rows of the trace, besides the files
-  Servo* servo = nullptr;           ///< position loops in place of the machine file's; may be null
+  bool has_trace = true;            ///< whether the rows go to trace.csv where files are written
+  std::string columns{};   ///< of the trace, as choose_columns() takes them; empty: default
+  Servo* servo = nullptr;  ///< position loops in place of the machine file's; may be null
   Pace pace = Pace::kOwn;
   std::vector<runtime::OverrideChange> overrides{};  ///< feed override at times of the motion
   runtime::Until until{};                            ///< ends the motion early; may be empty
@@ -70,6 +72,7 @@ struct Attendance {
 ///   open()           makes the machine
 ///   run()            plans, moves, writes trace.csv and summary.json
 ///   draw_figures()   draws the plots of the trace
+///   write_report()   writes report.html, the page of the run
 ///   render_video()   renders video.mp4 from the trace
 class Session {
  public:
@@ -93,8 +96,11 @@ class Session {
   ///          could not begin or its files could not be written
   Expected<runtime::RunResult> run(const Attendance& attendance = {});
 
-  /// Draws the figures of the trace that run() has left.
+  /// Draws the figures of the trace that run() has left, also of a run that ended early.
   Expected<void> draw_figures() const;
+
+  /// Writes report.html from what run() has left, also of a run that ended early.
+  Expected<void> write_report() const;
 
   /// Renders the video of the trace that run() has left.
   ///
@@ -109,6 +115,7 @@ class Session {
   Request request_;
   std::unique_ptr<hal::Machine> made_;
   hal::Machine* hal_;
+  bool is_partial_ = false;  // run() ended early
 };
 
 }  // namespace twin::session

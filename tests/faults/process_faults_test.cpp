@@ -112,7 +112,7 @@ TEST_P(PoliteSignal, BrakesOnThePathAndLeavesTheOutputsSafe) {
   const double before = monotonic();
   rig->controller->signal(GetParam());
   const auto result = rig->controller->wait();
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 130);
   EXPECT_THAT(result.err, HasSubstr("interrupted: stopped on the path at t = "));
   EXPECT_TRUE(rig->safe_after(before)) << rig->log();
   expect_partial_files();

@@ -16,6 +16,8 @@ Summary whole() {
   s.planning_time = 1.0;
   s.run = MachineResults{};
   s.run->realtime = RealTimeStats{};
+  s.cutting = CuttingStats{};
+  s.cutting->run = CuttingErrors{};
   return s;
 }
 

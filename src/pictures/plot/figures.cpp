@@ -29,9 +29,9 @@ struct RunOrigin {
   double period = 0.0;        ///< [s]; 0 when nothing is known
 };
 
-/// Reads it from a folder of results; a file that is missing or is none says nothing.
-RunOrigin read_run_origin(const fs::path& directory) {
-  std::ifstream in(directory / "summary.json");
+/// Reads it from a summary; a file that is missing or is none says nothing.
+RunOrigin read_run_origin(const fs::path& summary) {
+  std::ifstream in(summary);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   RunOrigin origin;
   if (!json.is_object()) {
@@ -64,9 +64,11 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   if (error) {
     return file_error(folder, "create", error.value());
   }
-  TWIN_TRY(const DataSummary data, write_figure_data(input.directory / results::kTraceName, folder,
+  TWIN_TRY(const DataSummary data, write_figure_data(input.directory / input.trace, folder,
                                                      input.programmed, input.plan_only));
-  const RunOrigin origin = read_run_origin(input.directory);
+  const RunOrigin origin = read_run_origin(
+      input.directory /
+      (input.trace == results::kPartialTraceName ? "summary.partial.json" : "summary.json"));
   const std::string title = title_of(input.title, origin);
   std::vector<Script> scripts = figure_scripts(title, data, input.plan_only);
   if (fs::exists(folder / results::kTimingName)) {

@@ -9,13 +9,15 @@
 #include "core/limits.hpp"
 #include "core/setting.hpp"
 #include "results/metrics/limit_audit.hpp"
+#include "results/metrics/place.hpp"
 
 namespace twin::results {
 
 /// Largest value and root mean square of an error.
 struct ErrorStats {
-  double max = 0.0;  ///< [mm]
-  double rms = 0.0;  ///< [mm]
+  double max = 0.0;           ///< [mm]
+  double rms = 0.0;           ///< [mm]
+  std::optional<Place> at{};  ///< where the largest one was
 };
 
 /// Largest value and root mean square of a relative error [-]; 0.01 is 1 %.
@@ -79,6 +81,27 @@ struct OverrideRecord {
   double from = 0.0;      ///< time at which it takes effect; for a hold the begin of braking [s]
 };
 
+/// Errors of the machine in the cutting motion, as those of the whole run in MachineResults.
+struct CuttingErrors {
+  ErrorStats contour_error;
+  ErrorStats table_contour_error;
+  std::array<ErrorStats, 2> tracking_error;  ///< x, y
+};
+
+/// Figures of the cutting motion alone: without rapids, and without motion with the pen up where the
+/// program ever lowers it.
+struct CuttingStats {
+  double time = 0.0;  ///< [s]
+  ErrorStats command_contour_error;
+  std::optional<CuttingErrors> run;  ///< nothing for a plan
+};
+
+/// How a run ended that did not come to the end of its program.
+struct EarlyEnd {
+  std::string reason;       ///< the message of its error
+  std::optional<Place> at;  ///< the last set point; nothing if there was none
+};
+
 /// Results that only a run on a machine has.
 struct MachineResults {
   double machining_time = 0.0;               ///< from the first set point to the last sample [s]
@@ -111,6 +134,11 @@ struct Summary {
   ErrorStats command_contour_error;  ///< set points against programmed path
   ShareStats feedrate_fluctuation;   ///< see FeedrateFluctuation
   AuditPeaks audit;
+  OfEachPeak<std::optional<Place>> audit_at;  ///< where the peaks were
+  std::optional<CuttingStats> cutting;        ///< nothing without any cutting motion
+  /// Where the run ended early. The figures are then of what was done: path_length is the length of
+  /// the way to there, and counts and times of the plan are not shown.
+  std::optional<EarlyEnd> early_end;
   std::optional<MachineResults> run;  ///< nothing for a plan
 
   std::vector<std::string> notes;  ///< settings that were changed for the run, and why
