@@ -39,8 +39,13 @@ if(TWIN_SANITIZE)
     # The address sanitizer finds what these checks find; at every element of Eigen they take half of the time.
     target_compile_options(twin_options INTERFACE -fno-sanitize=null,alignment)
   endif()
-  # Eigen would allocate in another way under a sanitizer than in libpagmo, which frees what this program allocates.
-  target_compile_definitions(twin_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
+
+# Longest time of a test [s].
+if(TWIN_SANITIZE)
+  set(TWIN_TEST_TIMEOUT 5400)
+else()
+  set(TWIN_TEST_TIMEOUT 900)
 endif()
 
 # Compiles a target's sources as one unit, or in batches of $1 sources: nine tenths of a source's time are its headers.
@@ -101,7 +106,7 @@ function(twin_test name)
     endif()
     math(EXPR index "${shard} - 1")
     add_test(NAME ${test} COMMAND ${name}_test --gtest_brief=1)
-    set_tests_properties(${test} PROPERTIES TIMEOUT 900
+    set_tests_properties(${test} PROPERTIES TIMEOUT ${TWIN_TEST_TIMEOUT}
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
     if(ARG_LABELS)
       set_tests_properties(${test} PROPERTIES LABELS "${ARG_LABELS}" COST 100)

@@ -103,16 +103,39 @@ install_missing() {
   logged install_packages "${names[@]}"
 }
 
-# build <program|tests|fuzz> <ninja target>
+# Gets what the test in a browser needs: Chromium from Debian, playwright-core from npm. It is tried once a build folder,
+# and what cannot be had is left out: that test then says what it lacks and is skipped.
+set_up_browser() {
+  local folder=$TWIN_BUILD/browser as_root=()
+  [[ ${TWIN_NO_INSTALL:-} != 1 && ! -f $folder/.tried ]] || return 0
+  mkdir -p "$folder"
+  touch "$folder/.tried"
+  ((EUID == 0)) || as_root=(sudo -n)
+  stage "getting a browser for the tests"
+  if ! command -v chromium >/dev/null && command -v dpkg-query >/dev/null; then
+    (install_packages chromium) >"$folder/install.log" 2>&1 || true
+  fi
+  if [[ ! -d $folder/node_modules/playwright-core ]] && command -v npm >/dev/null; then
+    timeout 60 npm install --prefix "$folder" --no-save --no-audit --no-fund playwright-core@1.65.1 \
+      >>"$folder/install.log" 2>&1 || true
+  fi
+  stage_done
+}
+
+# build <program|tests|asan|tsan|fuzz> <ninja target>
 #
 # One tree and one set of flags for the program and its tests; the programs of libFuzzer are clang's, with sanitizers, in
-# a tree of their own ($TWIN_BUILD of tests/fuzz/run). One at a time. When nothing has changed it costs one
+# a tree of their own ($TWIN_BUILD of tests/fuzz/run), and so are tests with sanitizers. One at a time. When nothing has changed it costs one
 # `ninja -n`.
 build() {
-  local use=$1 target=$2 configured= options
+  local use=$1 target=$2 configured= options packages=$1
   case $use in
     program) options=(-DTWIN_BUILD_TESTS=OFF) ;;
     tests) options=(-DTWIN_BUILD_TESTS=ON) ;;
+    asan | tsan)
+      options=(--preset "$use" -DTWIN_BUILD_TESTS=ON)
+      packages=tests
+      ;;
     fuzz)
       options=(-DTWIN_BUILD_TESTS=OFF -DTWIN_BUILD_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo
         "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -gline-tables-only -DEIGEN_NO_DEBUG" -DTWIN_SANITIZE=address,undefined,fuzzer-no-link)
@@ -130,7 +153,7 @@ build() {
     flock 9
   fi
   if [[ ! $TWIN_BUILD/.installed_$use -nt $TWIN_ROOT/cmake/packages.txt ]]; then
-    install_missing "$use"
+    install_missing "$packages"
     touch "$TWIN_BUILD/.installed_$use"
   fi
   [[ -f $TWIN_BUILD/build.ninja ]] && configured=yes

@@ -41,9 +41,11 @@ double DelayLine::step(double value) noexcept {
   return mean;
 }
 
-void DelayLine::clear() noexcept {
-  std::fill(values_.begin(), values_.end(), 0.0);
-  last_ = 0.0;
+void DelayLine::fill(double value) noexcept {
+  std::fill(values_.begin(), values_.end(), value);
+  last_ = value;
 }
+
+void DelayLine::clear() noexcept { fill(0.0); }
 
 }  // namespace twin::hal::mujoco

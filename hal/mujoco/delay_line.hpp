@@ -15,6 +15,8 @@ class DelayLine {
   /// @param steps delay n + f >= 0 in calls of step(); 0: none. Allocates.
   explicit DelayLine(double steps);
 
+  /// Makes a value the past. Real-time safe.
+  void fill(double value) noexcept;
   /// Takes the value of this step and returns the mean of what arrives during it. Real-time safe.
   double step(double value) noexcept;
   /// Fills the line with 0. Real-time safe.

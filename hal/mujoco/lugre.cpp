@@ -10,14 +10,15 @@ constexpr double kSmallDecay = 1e-6;  // lambda h below which the exponential is
 
 }  // namespace
 
-Lugre::Lugre(const LugreParams& params, double step) noexcept
+Lugre::Lugre(const FrictionParams& params, double step) noexcept
     : params_(params),
       step_(step),
       breakaway_(params.elastic_share * params.coulomb / params.bristle_stiffness) {}
 
 double Lugre::stribeck(double velocity) const noexcept {
   const double ratio = velocity / params_.stribeck_velocity;
-  return params_.coulomb * (1.0 + (params_.static_ratio - 1.0) * std::exp(-ratio * ratio));
+  return params_.coulomb_at(velocity) *
+         (1.0 + (params_.static_ratio - 1.0) * std::exp(-ratio * ratio));
 }
 
 double Lugre::plastic_share(double velocity, double steady) const noexcept {
@@ -35,9 +36,14 @@ double Lugre::plastic_share(double velocity, double steady) const noexcept {
   return 0.5 + 0.5 * std::sin(std::numbers::pi * (z - middle) / (steady - breakaway_));
 }
 
+void Lugre::reset(double velocity) noexcept {
+  const double steady = stribeck(velocity) / params_.bristle_stiffness;
+  deflection_ = velocity > 0.0 ? steady : velocity < 0.0 ? -steady : 0.0;
+}
+
 double Lugre::step(double velocity) noexcept {
   if (params_.coulomb <= 0.0) {
-    return params_.viscous * velocity;
+    return params_.viscous_at(velocity) * velocity;
   }
   const double steady = stribeck(velocity) / params_.bristle_stiffness;  // z_ss [mm]
   const double lambda = plastic_share(velocity, steady) * std::abs(velocity) / steady;
@@ -55,7 +61,7 @@ double Lugre::step(double velocity) noexcept {
   const double rate = (next - deflection_) / step_;
   deflection_ = next;
   return params_.bristle_stiffness * next + params_.bristle_damping * rate +
-         params_.viscous * velocity;
+         params_.viscous_at(velocity) * velocity;
 }
 
 }  // namespace twin::hal::mujoco

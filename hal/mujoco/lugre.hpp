@@ -6,7 +6,7 @@ namespace twin::hal::mujoco {
 
 /// Friction of one slide: the LuGre bristle with a purely elastic zone.
 ///
-/// With the velocity v, the mean bristle deflection z and the Stribeck curve
+/// With the velocity v, Fc and s2 in the direction of v, the mean bristle deflection z and the Stribeck curve
 ///   g(v) = Fc + (Fs - Fc) exp(-(v / vs)^2),   Fs = static_ratio Fc,
 /// the model is
 ///   dz/dt = v - alpha s0 |v| z / g(v)
@@ -30,13 +30,15 @@ namespace twin::hal::mujoco {
 class Lugre {
  public:
   /// @param step physics step h > 0 [s]
-  Lugre(const LugreParams& params, double step) noexcept;
+  Lugre(const FrictionParams& params, double step) noexcept;
 
   /// Advances by one step and returns the friction force, positive against positive motion [N].
   /// Real-time safe. @param velocity of the slide at the start of the step [mm/s]
   double step(double velocity) noexcept;
   /// Relaxes the bristle. Real-time safe.
   void reset() noexcept { deflection_ = 0.0; }
+  /// Bends the bristle as in steady sliding. Real-time safe. @param velocity [mm/s]
+  void reset(double velocity) noexcept;
   /// Bristle deflection z [mm].
   double deflection() const noexcept { return deflection_; }
 
@@ -46,7 +48,7 @@ class Lugre {
  private:
   double plastic_share(double velocity, double steady) const noexcept;
 
-  LugreParams params_;
+  FrictionParams params_;
   double step_;              // h [s]
   double breakaway_;         // z_ba [mm]
   double deflection_ = 0.0;  // z [mm]

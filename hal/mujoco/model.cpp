@@ -39,7 +39,9 @@ tl::unexpected<Error> model_error(const std::filesystem::path& file, std::string
 Expected<ModelPtr> load_model(const std::filesystem::path& file) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) {
-    return model_error(file, "no such MJCF file");
+    return model_error(file,
+                       "no such MJCF file; table.model names it, beside the machine file or in the "
+                       "program's folder mjcf");
   }
   TWIN_TRY(const MujocoLibrary* const mujoco, MujocoLibrary::load());
   std::array<char, 1000> text{};

@@ -9,6 +9,7 @@ namespace twin::hal::mujoco {
 
 MujocoMachine::MujocoMachine(TableParams params) : params_(std::move(params)) {
   info_.name = "mujoco";
+  info_.has_forces = true;
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     const AxisParams& p = params_.axis[axis];
     info_.mm_per_count[axis] = p.encoder.mm_per_count;
@@ -104,6 +105,8 @@ Truth MujocoMachine::truth() const noexcept {
   if (plant_) {
     for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
       truth.table_position[axis] = plant_->position(axis) - origin_[axis];
+      truth.motor_torque[axis] = plant_->torque(axis);
+      truth.friction_force[axis] = plant_->friction(axis);
     }
   }
   return truth;

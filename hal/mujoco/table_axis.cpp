@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace twin::hal::mujoco {
 namespace {
@@ -16,8 +17,11 @@ constexpr double kStopDamping = 5.0;       // [N s/mm]
 TableAxis::TableAxis(const AxisParams& params, double step)
     : travel_(params.travel),
       delay_(params.drive.output_delay / step),
-      drive_(params.drive, params.motor, params.total_inertia(), step),
-      friction_(params.friction, step) {}
+      drive_(params.drive, params.motor, params.total_inertia(), step, params.torque_per_volt()),
+      friction_(params.friction, step),
+      load_(params.load),
+      ripple_per_mm_(2.0 * std::numbers::pi * params.load.ripple_per_revolution /
+                     params.screw.lead) {}
 
 void TableAxis::command(double volts, bool servo_on) noexcept {
   volts_ = volts;
@@ -34,6 +38,21 @@ double TableAxis::end_stop(const AxisMotion& motion) const noexcept {
   return -outward * std::max(push, 0.0);
 }
 
+double TableAxis::load(double position) const noexcept {
+  if (load_.ripple_amplitude == 0.0) {
+    return -load_.weight;
+  }
+  return load_.ripple_amplitude * std::sin(ripple_per_mm_ * position + load_.ripple_phase) -
+         load_.weight;
+}
+
+void TableAxis::begin_moving(const AxisMotion& motion, double volts, double torque) noexcept {
+  command(volts, true);
+  delay_.fill(volts);
+  drive_.begin_moving(volts, motion.motor_speed, torque);
+  friction_.reset(motion.velocity);
+}
+
 AxisForces TableAxis::step(const AxisMotion& motion, double time) noexcept {
   DriveSignals signals;
   signals.servo_on = servo_on_;
@@ -41,7 +60,9 @@ AxisForces TableAxis::step(const AxisMotion& motion, double time) noexcept {
   signals.limit_negative = is_limit_negative(motion.position);
   AxisForces forces;
   forces.torque = drive_.step(delay_.step(volts_), motion.motor_speed, time, signals);
-  forces.slide = end_stop(motion) - friction_.step(motion.velocity);
+  resistance_ = friction_.step(motion.velocity);
+  forces.slide = end_stop(motion) - resistance_ + load(motion.position);
+  torque_ = forces.torque;
   return forces;
 }
 

@@ -2,7 +2,7 @@
 
 #include "hal/mujoco/delay_line.hpp"
 #include "hal/mujoco/drive.hpp"
-#include "hal/mujoco/lugre.hpp"
+#include "hal/mujoco/friction.hpp"
 #include "hal/mujoco/table_params.hpp"
 
 namespace twin::hal::mujoco {
@@ -17,7 +17,7 @@ struct AxisMotion {
 /// What acts on it during the step.
 struct AxisForces {
   double torque = 0.0;  ///< of the motor [N.m]
-  double slide = 0.0;   ///< friction and end stops, along the positive direction [N]
+  double slide = 0.0;  ///< friction, weight, ripple and end stops, along the positive direction [N]
 };
 
 /// One servo axis between its terminals and its slide: drive, friction, switches, end stops.
@@ -32,6 +32,9 @@ class TableAxis {
   void command(double volts, bool servo_on) noexcept;
   /// One physics step. Real-time safe. @param time since the first step [s]
   AxisForces step(const AxisMotion& motion, double time) noexcept;
+  /// Makes a motion that goes on the past: drive ready, friction sliding. Real-time safe.
+  /// @param volts  V-REF [V]  @param torque  of the motor [N.m]
+  void begin_moving(const AxisMotion& motion, double volts, double torque) noexcept;
   /// Servo off. Alarms stay until reset_drive(). Real-time safe.
   void switch_off() noexcept { command(0.0, false); }
   /// Clears an alarm and the states of the drive. Real-time safe.
@@ -45,6 +48,10 @@ class TableAxis {
   }
 
   const Drive& drive() const noexcept { return drive_; }
+  double torque() const noexcept { return torque_; }  ///< of the motor, in the last step [N.m]
+  double friction() const noexcept {
+    return resistance_;
+  }  ///< against motion, in the last step [N]
   bool is_limit_positive(double position) const noexcept {
     return is_forced_positive_ || position >= travel_;
   }
@@ -54,12 +61,17 @@ class TableAxis {
 
  private:
   double end_stop(const AxisMotion& motion) const noexcept;
+  double load(double position) const noexcept;
 
   double travel_;  // limit switches at +-travel_ [mm]
   DelayLine delay_;
   Drive drive_;
-  Lugre friction_;
-  double volts_ = 0.0;  // at the terminals [V]
+  Friction friction_;
+  LoadParams load_;
+  double ripple_per_mm_;     // angle of the ripple per travel [rad/mm]
+  double volts_ = 0.0;       // at the terminals [V]
+  double torque_ = 0.0;      // of the motor in the last step [N.m]
+  double resistance_ = 0.0;  // friction in the last step [N]
   bool servo_on_ = false;
   bool is_forced_positive_ = false;
   bool is_forced_negative_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -18,30 +19,69 @@ struct MotorParams {
   double current_lag = 0.45e-3;    ///< time constant of the current loop, 0: none [s]
 };
 
-/// Drive in speed mode.
-struct DriveParams {
-  double vref_scale_rpm_per_V = 500.0;  ///< speed per volt of V-REF, signed [rpm/V]
-  double input_lag = 0.0;               ///< time constant of the V-REF input filter, 0: none [s]
-  double output_delay = 0.3e-3;         ///< from write() to the drive seeing the voltage [s]
-  double velocity_gain_Hz = 30.0;       ///< velocity loop gain, referred to the total inertia [Hz]
-  double integral_time = 7e-3;          ///< of the velocity loop [s]
-  double vref_offset = 0.0;             ///< constant disturbance of V-REF [V]
-  double hum_amplitude = 20e-3;         ///< peak of the mains hum on V-REF [V]
-  double hum_frequency_Hz = 60.0;       ///< [Hz]
-  double hum_phase = 0.0;               ///< at the first physics step [rad]
-  double ready_delay = 20e-3;           ///< from /S-ON to /S-RDY and torque [s]
-  double overload_time = 0.5;           ///< alarm after so long at the torque limit [s]
+/// What the drive makes of its command.
+enum class DriveMode : std::uint8_t {
+  kSpeed,   ///< V-REF is a speed, which the drive's velocity loop follows
+  kTorque,  ///< V-REF is a torque; the loop of the speed is in the controller's servo
 };
 
-/// LuGre friction of the slide.
-struct LugreParams {
-  double coulomb = 8.0;              ///< Coulomb friction Fc [N]
+/// Drive between its terminals and the motor's torque.
+struct DriveParams {
+  DriveMode mode = DriveMode::kSpeed;
+  double vref_scale_rpm_per_V = 500.0;  ///< speed per volt of V-REF, signed [rpm/V]
+  double torque_scale = 0.0;  ///< torque mode: torque per volt, signed; 0: force_scale says [N.m/V]
+  double force_scale = 0.0;   ///< torque mode: the same as force at the slide, signed [N/V]
+  double input_lag = 0.0;     ///< time constant of the V-REF input filter, 0: none [s]
+  double output_delay = 0.3e-3;       ///< from write() to the drive seeing the voltage [s]
+  double velocity_gain_Hz = 30.0;     ///< velocity loop gain, referred to the total inertia [Hz]
+  double integral_time = 7e-3;        ///< of the velocity loop, 0: no integral part [s]
+  double velocity_loop_period = 0.0;  ///< between its samples, 0: every physics step [s]
+  double speed_filter = 0.0;          ///< time constant of the speed feedback's filter [s]
+  double speed_delay = 0.0;           ///< dead time of the speed feedback [s]
+  double vref_offset = 0.0;           ///< constant disturbance of V-REF [V]
+  double hum_amplitude = 20e-3;       ///< peak of the mains hum on V-REF [V]
+  double hum_frequency_Hz = 60.0;     ///< [Hz]
+  double hum_phase = 0.0;             ///< at the first physics step [rad]
+  double ready_delay = 20e-3;         ///< from /S-ON to /S-RDY and torque [s]
+  double overload_time = 0.5;         ///< alarm after so long at the torque limit [s]
+};
+
+/// How friction follows from the motion.
+enum class FrictionLaw : std::uint8_t {
+  kLugre,    ///< one bristle with Stribeck curve and elastic zone
+  kCoulomb,  ///< one spring that slips at the Coulomb friction
+  kMaxwell,  ///< generalised Maxwell slip: springs side by side that slip one after the other
+};
+
+/// Friction of the slide.
+struct FrictionParams {
+  FrictionLaw law = FrictionLaw::kLugre;
+  double coulomb = 8.0;              ///< Coulomb friction Fc, mean of both directions [N]
   double static_ratio = 1.5;         ///< breakaway over Coulomb friction Fs / Fc >= 1 [-]
   double stribeck_velocity = 2.0;    ///< vs [mm/s]
   double bristle_stiffness = 300.0;  ///< s0 [N/mm]
   double bristle_damping = 0.44;     ///< s1 [N s/mm]
-  double viscous = 0.01;             ///< s2 [N s/mm]
-  double elastic_share = 0.9;  ///< purely elastic part of the Coulomb deflection, 0: LuGre [-]
+  double viscous = 0.01;             ///< s2, mean of both directions [N s/mm]
+  double elastic_share = 0.9;      ///< purely elastic part of the Coulomb deflection, 0: LuGre [-]
+  double coulomb_asymmetry = 0.0;  ///< Fc + this towards plus, Fc - this towards minus [N]
+  double viscous_asymmetry = 0.0;  ///< s2 + this towards plus, s2 - this towards minus [N s/mm]
+
+  /// Coulomb friction in the direction of a velocity [N].
+  double coulomb_at(double velocity) const noexcept {
+    return velocity < 0.0 ? coulomb - coulomb_asymmetry : coulomb + coulomb_asymmetry;
+  }
+  /// Viscous friction in the direction of a velocity [N s/mm].
+  double viscous_at(double velocity) const noexcept {
+    return velocity < 0.0 ? viscous - viscous_asymmetry : viscous + viscous_asymmetry;
+  }
+};
+
+/// Forces on the slide that depend on where it is.
+struct LoadParams {
+  double weight = 0.0;                 ///< constant force towards minus, signed [N]
+  double ripple_amplitude = 0.0;       ///< torque ripple as force at the slide [N]
+  double ripple_per_revolution = 1.0;  ///< its periods in a revolution of the screw [-]
+  double ripple_phase = 0.0;           ///< at position 0 [rad]
 };
 
 /// Ball screw.
@@ -55,6 +95,7 @@ struct ScrewParams {
 struct EncoderParams {
   double mm_per_count = 0.010;  ///< after fourfold evaluation, signed [mm/count]
   double phase = 0.5;           ///< where in a count the zero lies, 0 <= phase < 1 [counts]
+  double delay = 0.0;           ///< from the position to the controller reading it [s]
 };
 
 /// One servo axis of the table.
@@ -64,10 +105,15 @@ struct AxisParams {
   int dac_bits = 16;          ///< resolution of the D/A converter over +-10 V [bit]
   MotorParams motor;
   DriveParams drive;
-  LugreParams friction;
+  FrictionParams friction;
+  LoadParams load;
   ScrewParams screw;
   EncoderParams encoder;
 
+  /// Motor torque per volt in torque mode, signed [N.m/V].
+  double torque_per_volt() const {
+    return drive.torque_scale + drive.force_scale * mm_per_rad() * 1e-3;
+  }
   /// Travel per radian of the motor [mm/rad].
   double mm_per_rad() const { return screw.lead / (2.0 * std::numbers::pi); }
   /// V-REF scale as travel, signed [mm/s/V].

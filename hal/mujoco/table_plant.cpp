@@ -28,6 +28,7 @@ TablePlant::TablePlant(std::unique_ptr<TablePhysics> physics, const TableParams&
     : physics_(std::move(physics)), step_(step), steps_(steps) {
   for (const AxisParams& axis : params.axis) {
     axes_.emplace_back(axis, step_);
+    feedback_.emplace_back(axis.encoder.delay / step_);
   }
 }
 
@@ -54,6 +55,9 @@ void TablePlant::step() {
   }
   physics_->pull_pen(pen_reference_);
   physics_->step();
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    reported_[axis] = feedback_[axis].step(physics_->encoder_position(axis));
+  }
   ++steps_done_;
 }
 
@@ -84,9 +88,7 @@ double TablePlant::velocity(std::size_t axis) const noexcept {
   return physics_->motion(axis).velocity;
 }
 
-double TablePlant::encoder_position(std::size_t axis) const noexcept {
-  return physics_->encoder_position(axis);
-}
+double TablePlant::encoder_position(std::size_t axis) const noexcept { return reported_[axis]; }
 
 double TablePlant::pen_position() const noexcept { return physics_->pen_position(); }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "hal/mujoco/delay_line.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "hal/mujoco/table_params.hpp"
 
@@ -52,10 +53,15 @@ class TablePlant {
   /// @returns false if the simulation has failed; it then stays as it is, and last_error() says why
   bool advance() noexcept;
 
-  double position(std::size_t axis) const noexcept;          ///< position of the slide [mm]
-  double velocity(std::size_t axis) const noexcept;          ///< velocity of the slide [mm/s]
-  double encoder_position(std::size_t axis) const noexcept;  ///< motor angle as travel [mm]
-  double pen_position() const noexcept;                      ///< position of the pen slide [mm]
+  double position(std::size_t axis) const noexcept;  ///< position of the slide [mm]
+  double velocity(std::size_t axis) const noexcept;  ///< velocity of the slide [mm/s]
+  /// Motor angle as travel, as late as the encoder reports it [mm].
+  double encoder_position(std::size_t axis) const noexcept;
+  double pen_position() const noexcept;  ///< position of the pen slide [mm]
+  /// Torque of the motor in the last physics step [N.m].
+  double torque(std::size_t axis) const noexcept { return axes_[axis].torque(); }
+  /// Friction of the slide in the last physics step, positive against positive motion [N].
+  double friction(std::size_t axis) const noexcept { return axes_[axis].friction(); }
   bool is_ready(std::size_t axis) const noexcept { return axes_[axis].drive().is_ready(); }
   bool has_alarm(std::size_t axis) const noexcept { return axes_[axis].drive().has_alarm(); }
   bool is_limit_positive(std::size_t axis) const noexcept;
@@ -72,6 +78,8 @@ class TablePlant {
 
   std::unique_ptr<TablePhysics> physics_;
   std::vector<TableAxis> axes_;
+  std::vector<DelayLine> feedback_;                  // of the encoders
+  std::array<double, kServoAxes> reported_{};        // behind it [mm]
   std::array<double, kServoAxes> external_force_{};  // [N]
   double pen_reference_ = 0.0;                       // [mm]
   double step_;                                      // physics step [s]

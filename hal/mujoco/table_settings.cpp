@@ -33,6 +33,24 @@ Expected<void> check(const std::string& section, const std::vector<Setting>& set
   return {};
 }
 
+/// Torque mode wants one scale, speed mode none.
+Expected<void> check_drive_mode(const std::string& section, const DriveParams& drive) {
+  if (drive.mode == DriveMode::kTorque && drive.torque_scale == 0.0 && drive.force_scale == 0.0) {
+    return fail(ErrorCode::kMachine,
+                fmt::format("{0}.drive_mode = \"torque\" needs {0}.torque_scale_N_m_per_V or "
+                            "{0}.force_scale_N_per_V",
+                            section));
+  }
+  if (drive.torque_scale != 0.0 && drive.force_scale != 0.0) {
+    return fail(
+        ErrorCode::kMachine,
+        fmt::format("{0}.torque_scale_N_m_per_V = {1:g} and {0}.force_scale_N_per_V = {2:g} "
+                    "say the same twice: one of them must be 0",
+                    section, drive.torque_scale, drive.force_scale));
+  }
+  return {};
+}
+
 Expected<void> check_axis(const std::string& section, AxisParams& axis, double step) {
   TWIN_CHECK(check(section, axis_settings(axis)));
   if (axis.dac_bits < kMinDacBits || axis.dac_bits > kMaxDacBits) {
@@ -43,6 +61,14 @@ Expected<void> check_axis(const std::string& section, AxisParams& axis, double s
     return fail(ErrorCode::kMachine,
                 fmt::format("{}.encoder_um_per_count and {}.vref_scale_rpm_per_V must not be 0",
                             section, section));
+  }
+  TWIN_CHECK(check_drive_mode(section, axis.drive));
+  if (std::abs(axis.friction.coulomb_asymmetry) > axis.friction.coulomb ||
+      std::abs(axis.friction.viscous_asymmetry) > axis.friction.viscous) {
+    return fail(ErrorCode::kMachine,
+                fmt::format("{0}.coulomb_asymmetry_N and {0}.viscous_asymmetry_N_s_per_m must not "
+                            "exceed the friction itself: it would push in one direction",
+                            section));
   }
   const double gain = 2.0 * std::numbers::pi * axis.drive.velocity_gain_Hz * step;
   if (gain > kMaxGainPerStep) {
@@ -66,7 +92,7 @@ std::vector<Setting> table_settings(TableParams& params) {
 }
 
 std::vector<Setting> axis_settings(AxisParams& params) {
-  auto& [mass, travel, bits, motor, drive, friction, screw, encoder] = params;
+  auto& [mass, travel, bits, motor, drive, friction, load, screw, encoder] = params;
   static_cast<void>(bits);
   return {
       {"moving_mass_kg", &mass, 1.0, 0.1, 10000.0, "everything the axis moves, without the rotor"},
@@ -84,8 +110,18 @@ std::vector<Setting> axis_settings(AxisParams& params) {
        "from write to the drive seeing the voltage"},
       {"velocity_gain_Hz", &drive.velocity_gain_Hz, 1.0, 0.1, 20000.0,
        "velocity loop gain, referred to the total inertia"},
-      {"integral_time_ms", &drive.integral_time, kMilli, 0.01, 1e6,
-       "integral time of the velocity loop"},
+      {"integral_time_ms", &drive.integral_time, kMilli, 0.0, 1e6,
+       "integral time of the velocity loop; 0: no integral part"},
+      {"velocity_loop_period_ms", &drive.velocity_loop_period, kMilli, 0.0, 10.0,
+       "of the velocity loop, with speed from encoder differences; 0: continuous"},
+      {"speed_filter_ms", &drive.speed_filter, kMilli, 0.0, 100.0,
+       "time constant of the filter of the speed feedback"},
+      {"speed_feedback_delay_ms", &drive.speed_delay, kMilli, 0.0, 100.0,
+       "dead time of the speed feedback"},
+      {"torque_scale_N_m_per_V", &drive.torque_scale, 1.0, -1000.0, 1000.0,
+       "torque mode: motor torque per volt"},
+      {"force_scale_N_per_V", &drive.force_scale, 1.0, -1e6, 1e6,
+       "torque mode: the same as force at the slide; one of the two is 0"},
       {"vref_offset_mV", &drive.vref_offset, kMilli, -1000.0, 1000.0,
        "constant disturbance of V-REF"},
       {"hum_amplitude_mV", &drive.hum_amplitude, kMilli, 0.0, 1000.0,
@@ -110,6 +146,17 @@ std::vector<Setting> axis_settings(AxisParams& params) {
        "viscous friction s2"},
       {"bristle_elastic_share", &friction.elastic_share, 1.0, 0.0, 0.99,
        "elastic part of the Coulomb deflection; 0 is plain LuGre"},
+      {"coulomb_asymmetry_N", &friction.coulomb_asymmetry, 1.0, -10000.0, 10000.0,
+       "Coulomb friction towards plus less that towards minus, halved"},
+      {"viscous_asymmetry_N_s_per_m", &friction.viscous_asymmetry, kPerMmFromPerM, -1e5, 1e5,
+       "viscous friction towards plus less that towards minus, halved"},
+      {"weight_N", &load.weight, 1.0, -1e5, 1e5, "constant force on the slide towards minus"},
+      {"ripple_amplitude_N", &load.ripple_amplitude, 1.0, 0.0, 1e4,
+       "torque ripple, as force at the slide"},
+      {"ripple_per_revolution", &load.ripple_per_revolution, 1.0, 0.0, 1000.0,
+       "periods of the ripple in a revolution of the screw"},
+      {"ripple_phase_deg", &load.ripple_phase, kRadPerDeg, -360.0, 360.0,
+       "phase of the ripple at position 0"},
       {"screw_lead_mm", &screw.lead, 1.0, 0.1, 1000.0, "travel per revolution"},
       {"screw_stiffness_N_per_um", &screw.stiffness, kPerMmFromPerUm, 1e-3, 10000.0,
        "of the screw; used by xy_table_compliant.xml only"},
@@ -118,6 +165,8 @@ std::vector<Setting> axis_settings(AxisParams& params) {
       {"encoder_um_per_count", &encoder.mm_per_count, kMilli, -10000.0, 10000.0,
        "encoder scale after fourfold evaluation; negative turns it round"},
       {"encoder_phase_counts", &encoder.phase, 1.0, 0.0, 1.0, "where in a count the zero lies"},
+      {"feedback_delay_ms", &encoder.delay, kMilli, 0.0, 100.0,
+       "from a position to the controller reading it"},
   };
 }
 

@@ -58,7 +58,10 @@ struct CommandNames {
 /// @param words  the command line without the program's name
 std::string explain(const CommandNames& names, std::span<const char* const> words);
 
-bool is_option(std::string_view word) { return word.size() > 1 && word[0] == '-'; }
+/// Whether a word is meant as an option; a negative number is not.
+bool is_option(std::string_view word) {
+  return word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
+}
 
 /// The first option that a command does not have; empty if there is none.
 std::string unknown_option(const CommandNames& command, std::span<const char* const> words) {
@@ -68,7 +71,13 @@ std::string unknown_option(const CommandNames& command, std::span<const char* co
       break;
     }
     if (is_option(word) && std::ranges::find(command.options, name) == command.options.end()) {
-      return fmt::format("unknown option {}{}", name, config::did_you_mean(name, command.options));
+      const auto longer = std::ranges::find_if(command.options, [name](const std::string& known) {
+        return name.size() > 3 && known.starts_with(name);
+      });
+      return fmt::format("unknown option {}{}", name,
+                         longer == command.options.end()
+                             ? config::did_you_mean(name, command.options)
+                             : "; did you mean " + *longer + "?");
     }
   }
   return {};
@@ -101,9 +110,10 @@ std::string explain(const CommandNames& names, std::span<const char* const> word
 /// The parser of one command line. Only the command that is chosen gets its options.
 class ArgumentParser {
  public:
-  explicit ArgumentParser(std::span<const char* const> words) : words_(words) {
+  explicit ArgumentParser(std::span<const char* const> words)
+      : asked_(as_options(words)), words_(asked_) {
     app_.formatter(std::make_shared<HelpFormatter>());
-    app_.set_version_flag("--version", "twin " + std::string(version()));
+    app_.set_version_flag("-V,--version", "twin " + std::string(version()));
     app_.require_subcommand(1);
     add_commands();
   }
@@ -123,23 +133,46 @@ class ArgumentParser {
   }
 
  private:
+  /// `twin help run` as `twin run --help`, `twin version` as `twin --version`.
+  static std::vector<const char*> as_options(std::span<const char* const> words) {
+    std::vector<const char*> asked(words.begin(), words.end());
+    const std::string_view first = words.empty() ? "" : words[0];
+    if (first == "help") {
+      asked.erase(asked.begin());
+      asked.push_back("--help");
+    } else if (first == "version" && words.size() == 1) {
+      asked[0] = "--version";
+    }
+    return asked;
+  }
+
   template <class CommandArguments>
   void add(CLI::App& parent, const std::string& name, const std::string& text) {
     CLI::App* const command = parent.add_subcommand(name, text);
+    if (&parent == &app_) {
+      command->group(group_);
+    }
     if (is_chosen(*command)) {
       add_options(*command, arguments_.emplace<CommandArguments>());
     }
   }
 
   void add_commands() {
+    group_ = "Run and look";
     add<RunArguments>(
         app_, "run",
         "Plan a program, move the machine along it, write the results, print the summary");
     add<PlanArguments>(app_, "plan",
                        "The same without a machine: set points, planned time, limits");
     add<CheckArguments>(app_, "check",
-                        "Read and verify programs and estimate their cycle time; nothing moves");
+                        "Read and verify programs and say their machining time; nothing moves");
     add<RenderArguments>(app_, "render", "Plots and video again, from the trace in a folder");
+    add<ReportArguments>(app_, "report",
+                         "A page to look at, from the trace in a folder; of several folders one "
+                         "page that compares the runs");
+    add<SettingsArguments>(app_, "settings",
+                           "All settings: value, unit, range, meaning, where each comes from");
+    group_ = "Studies";
     add<CompareArguments>(
         app_, "compare",
         "Planners and interpolators side by side on one program, the parameter updates too; a "
@@ -165,6 +198,7 @@ class ArgumentParser {
   void add_rig_commands() {
     CLI::App& rig = *app_.add_subcommand(
         "rig", "Bring up and exercise the rig: probe, monitor, check, jog, home, emulate");
+    rig.group("Rig");
     rig.require_subcommand(1);
     add<RigProbeArguments>(rig, "probe", "Show cards, inputs and drive states; nothing moves");
     add<RigMonitorArguments>(
@@ -201,7 +235,18 @@ class ArgumentParser {
       text = error.what();
     }
     std::ranges::replace(text, '\n', ' ');
-    return text + " (twin --help lists what there is)";
+    std::string asked = "twin";
+    const CLI::App* command = &app_;
+    for (const std::string_view word : words_) {
+      const auto below =
+          command->get_subcommands([word](const CLI::App* one) { return one->get_name() == word; });
+      if (below.empty()) {
+        break;
+      }
+      command = below.front();
+      asked.append(" ").append(word);
+    }
+    return text + " (" + asked + " --help lists what there is)";
   }
 
   static CommandNames names_of(const CLI::App& command) {
@@ -220,11 +265,13 @@ class ArgumentParser {
     return names;
   }
 
-  std::span<const char* const> words_;
+  std::vector<const char*> asked_;      // the command line; help and version as options
+  std::span<const char* const> words_;  // of asked_
+  std::string group_;                   // of the commands that are added, in the help
   Arguments arguments_;
   CLI::App app_{
       "twin: digital twin of a servo XY table and of the CNC controller that drives it.\n"
-      "Start with: twin run dolphin.nc",
+      "Start with: twin run dolphin.nc, then look at renders/dolphin/report.html",
       "twin"};
 };
 

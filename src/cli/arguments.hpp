@@ -23,12 +23,17 @@ struct ProgramArguments {
   std::optional<double> feedrate;  ///< --feedrate-mm-per-min [mm/s]
 };
 
-/// --machine, --set and --curves.
+/// --machine, --set and --curves, and how programs are read.
 struct MachineArguments {
   std::string file = "xy_table.toml";   ///< a path, or a name in mjcf
   std::vector<std::string> settings;    ///< section.key=value
   std::string curves;                   ///< "nurbs", "bezier", "linear"; empty: as the file has it
   bool has_old_name_of_curves = false;  ///< it was given as --interpolator
+  std::string dialect;                  ///< --dialect; empty: as the file has it
+  std::string ignored_axes;             ///< --ignore-axes; empty: as the file has it
+  std::string offset_mm;                ///< --offset-mm: X,Y,Z; empty: of the machine file
+  std::string tool_table;               ///< --tool-table; empty: of the machine file
+  std::vector<std::filesystem::path> subprogram_folders;  ///< --subprograms
 };
 
 /// --hal rig: which rig it is, and what is known of it.
@@ -50,6 +55,10 @@ struct HalArguments {
 struct ResultArguments {
   std::filesystem::path folder;  ///< --out; empty: one below renders
   bool has_plots = true;         ///< without --no-plots
+  bool has_page = true;          ///< without --no-report
+  bool has_trace = true;         ///< without --no-trace
+  bool has_json = false;         ///< --json: the summary goes to stdout as it is in the file
+  std::string columns;           ///< --columns, of the trace; empty: the default ones
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -68,6 +77,8 @@ struct RunArguments {
   std::string overrides;          ///< seconds:percent, ...
   bool is_on_wall_clock = false;  ///< --realtime
   std::filesystem::path control;  ///< socket for an operator; empty: none
+  std::optional<int> view;        ///< --view, its port; 0: any
+  std::string publish;            ///< --publish, an address; empty: none
   ResultArguments results;
   VideoArguments video;
 };
@@ -84,6 +95,8 @@ struct CheckArguments {
   std::vector<std::string> programs;
   std::optional<double> feedrate;  ///< [mm/s]
   MachineArguments machine;
+  bool is_json = false;          ///< --json: one JSON document on stdout
+  std::size_t most_errors = 20;  ///< --most-errors, of one program
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -93,6 +106,17 @@ struct RenderArguments {
   bool has_plots = true;
   VideoArguments video;
   Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct ReportArguments {
+  std::vector<std::filesystem::path> folders;  ///< of runs
+  std::filesystem::path file;                  ///< the page; empty: report.html
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct SettingsArguments {
+  std::string filter;  ///< part of a section's or key's name; empty: all
+  MachineArguments machine;
 };
 
 struct CompareArguments {
@@ -118,8 +142,9 @@ struct CircleArguments {
 };
 
 struct IdentifyArguments {
-  std::vector<std::string> traces;  ///< CSV files
-  bool has_tables = false;          ///< the published tables take the place of traces
+  std::vector<std::string> traces;      ///< CSV files
+  std::vector<std::string> validating;  ///< CSV files that are predicted only
+  bool has_tables = false;              ///< the published tables take the place of traces
   MachineArguments machine;
   std::string columns;                     ///< SIGNAL=COLUMN[:UNIT],...
   std::filesystem::path file;              ///< machine file to write; empty: one below renders
@@ -127,6 +152,7 @@ struct IdentifyArguments {
   std::vector<std::string> freed;          ///< keys that are fitted though they would be held
   std::uint32_t seed = 1;                  ///< of the global search
   std::optional<std::size_t> evaluations;  ///< simulations of the global search
+  bool has_plots = true;                   ///< of the predictions
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -205,10 +231,10 @@ struct TextArguments {
 /// What a command line asks for.
 using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
-                 CompareArguments, ReproduceArguments, CircleArguments, IdentifyArguments,
-                 ConvertArguments, BatchArguments, SweepArguments, RigProbeArguments,
-                 RigMonitorArguments, RigCheckArguments, RigJogArguments, RigHomeArguments,
-                 RigEmulateArguments>;
+                 ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
+                 CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
+                 SweepArguments, RigProbeArguments, RigMonitorArguments, RigCheckArguments,
+                 RigJogArguments, RigHomeArguments, RigEmulateArguments>;
 
 /// Reads a command line.
 ///

@@ -20,6 +20,8 @@ Expected<void> execute(const RunArguments& arguments, const Environment& environ
 Expected<void> execute(const PlanArguments& arguments, const Environment& environment);
 Expected<void> execute(const CheckArguments& arguments, const Environment& environment);
 Expected<void> execute(const RenderArguments& arguments, const Environment& environment);
+Expected<void> execute(const ReportArguments& arguments, const Environment& environment);
+Expected<void> execute(const SettingsArguments& arguments, const Environment& environment);
 Expected<void> execute(const CompareArguments& arguments, const Environment& environment);
 Expected<void> execute(const ReproduceArguments& arguments, const Environment& environment);
 Expected<void> execute(const CircleArguments& arguments, const Environment& environment);

@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -8,18 +14,20 @@
 #include "studies/identify/candidates.hpp"
 #include "studies/identify/identification_report.hpp"
 #include "studies/identify/identify.hpp"
+#include "studies/identify/validation_figures.hpp"
 #include "studies/reproduce/table_fit.hpp"
 
 namespace twin::cli {
 namespace {
 
 Expected<std::vector<studies::identify::Recording>> read_recordings(
-    const IdentifyArguments& arguments, const config::MachineFile& machine) {
+    const std::vector<std::string>& traces, const IdentifyArguments& arguments,
+    const config::MachineFile& machine) {
   TWIN_TRY(const auto columns, studies::identify::parse_columns(arguments.columns));
   std::vector<studies::identify::Recording> recordings;
-  for (const std::string& trace : arguments.traces) {
-    TWIN_TRY(auto recording, studies::identify::read_recording(trace, columns, machine.limits));
-    recordings.push_back(std::move(recording));
+  for (const std::string& trace : traces) {
+    TWIN_TRY(auto some, studies::identify::read_recordings(trace, columns, machine.limits));
+    std::ranges::move(some, std::back_inserter(recordings));
   }
   return recordings;
 }
@@ -44,12 +52,13 @@ Expected<void> identify_traces(const IdentifyArguments& arguments,
   fit.stop = &stop;
   TWIN_TRY(fit.fixed, keys_of("--fix", arguments.fixed, machine));
   TWIN_TRY(fit.freed, keys_of("--free", arguments.freed, machine));
-  TWIN_TRY(const auto recordings, read_recordings(arguments, machine));
+  TWIN_TRY(const auto recordings, read_recordings(arguments.traces, arguments, machine));
+  TWIN_TRY(const auto validating, read_recordings(arguments.validating, arguments, machine));
   Expected<studies::identify::Identification> result;
   {
     Progress progress("identifying", arguments.verbosity);
     fit.progress = progress.callback();
-    result = studies::identify::identify(recordings, machine, fit);
+    result = studies::identify::identify(recordings, machine, fit, validating);
   }
   if (!result) {
     return tl::unexpected(result.error());
@@ -57,6 +66,10 @@ Expected<void> identify_traces(const IdentifyArguments& arguments,
   const std::filesystem::path details = file.parent_path() / "identify.json";
   TWIN_CHECK(write_whole_file(file, studies::identify::to_machine_file(*result)));
   TWIN_CHECK(write_whole_file(details, studies::identify::to_json(*result, file)));
+  if (arguments.has_plots) {
+    TWIN_CHECK(
+        studies::identify::draw_validations(result->validations, file.parent_path() / "plots"));
+  }
   if (arguments.verbosity == Verbosity::kNormal) {
     print_out("{}\nmachine file {}, details in {}\n", studies::identify::to_table(*result),
               file.string(), details.string());
@@ -73,6 +86,7 @@ Expected<void> identify_tables(const IdentifyArguments& arguments,
                                const config::MachineFile& machine,
                                const std::filesystem::path& file, const std::atomic<bool>& stop) {
   TWIN_TRY(const auto published, studies::reproduce::published());
+  const std::filesystem::path checkpoint = file.string() + ".checkpoint";
   Expected<studies::reproduce::TableFit> fit;
   {
     Progress progress("fitting the published tables", arguments.verbosity);
@@ -80,6 +94,7 @@ Expected<void> identify_tables(const IdentifyArguments& arguments,
     options.evaluations = arguments.evaluations.value_or(options.evaluations);
     options.seed = arguments.seed;
     options.stop = &stop;
+    options.checkpoint = checkpoint;
     options.progress = [&progress](double share, double) { progress.show(share); };
     fit = studies::reproduce::fit_tables(published, machine, options);
   }
@@ -90,9 +105,15 @@ Expected<void> identify_tables(const IdentifyArguments& arguments,
   if (arguments.verbosity == Verbosity::kNormal) {
     print_out("{}machine file: {}\n", studies::reproduce::to_table(*fit), file.string());
   }
-  if (fit->was_stopped) {
-    return fail(ErrorCode::kInterrupted, "interrupted: the machine file has the best so far");
+  if (fit->was_resumed) {
+    print_note(fmt::format("went on from {}", checkpoint.string()));
   }
+  if (fit->was_stopped) {
+    return fail(ErrorCode::kInterrupted,
+                "interrupted: the machine file has the best so far; the same command goes on");
+  }
+  std::error_code ignored;
+  std::filesystem::remove(checkpoint, ignored);
   return {};
 }
 

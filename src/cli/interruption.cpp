@@ -21,9 +21,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kGrace = 80ms;    // for what looks at the flag to end by itself
-constexpr auto kGlance = 5ms;    // between two looks at what must finish
-constexpr int kInterrupted = 1;  // exit status, as of every run that did not end well
+constexpr auto kGrace = 80ms;      // for what looks at the flag to end by itself
+constexpr auto kGlance = 5ms;      // between two looks at what must finish
+constexpr int kInterrupted = 130;  // exit status, as a shell gives it after Ctrl-C
 
 std::atomic<bool> stop_requested{false};
 std::atomic<bool> is_ending{false};  // whoever sets it ends the program

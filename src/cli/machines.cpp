@@ -84,6 +84,22 @@ Expected<void> check_rig_is_meant(const HalArguments& arguments) {
   return {};
 }
 
+/// Words of a command line as it is quoted for a shell, without quotation marks.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words(1);
+  bool is_quoted = false;
+  for (const char c : command) {
+    if (c == '\'') {
+      is_quoted = !is_quoted;
+    } else if (c == ' ' && !is_quoted) {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
 }  // namespace
 
 std::string shared_name(const RigArguments& arguments) {
@@ -131,16 +147,30 @@ Expected<RigToLookAt> open_to_look(const RigArguments& arguments, config::Machin
   return seen;
 }
 
-Expected<gcode::ProgramText> read_program(const std::string& name, const std::atomic<bool>& stop,
+Expected<gcode::ProgramText> read_program(const std::string& name, const MachineArguments& machine,
+                                          const std::atomic<bool>& stop,
                                           const std::filesystem::path& out) {
   TWIN_TRY(const std::filesystem::path file, config::find_program(name));
-  return gcode::ProgramText::read(file, {.folder = out, .stop = &stop});
+  return gcode::ProgramText::read(
+      file, {.folder = out, .stop = &stop, .subprogram_folders = machine.subprogram_folders});
 }
 
 Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Verbosity verbosity) {
   session::MachineSource source{arguments.file, arguments.settings};
   if (!arguments.curves.empty()) {
     source.settings.push_back("path.curves=" + arguments.curves);
+  }
+  if (!arguments.dialect.empty()) {
+    source.settings.push_back("program.dialect=" + arguments.dialect);
+  }
+  if (!arguments.ignored_axes.empty()) {
+    source.settings.push_back("program.ignored_axes=" + arguments.ignored_axes);
+  }
+  if (!arguments.offset_mm.empty()) {
+    source.settings.push_back("program.workpiece_mm=[" + arguments.offset_mm + "]");
+  }
+  if (!arguments.tool_table.empty()) {
+    source.settings.push_back("program.tool_table=" + arguments.tool_table);
   }
   TWIN_TRY(config::MachineFile machine, session::read_machine(source));
   if (verbosity == Verbosity::kQuiet) {
@@ -164,6 +194,24 @@ session::MakeMachine machine_of(const HalArguments& arguments) {
     TWIN_CHECK(check_rig_is_meant(arguments));
     return session::make_simulated_machine(arguments.name, machine);
   };
+}
+
+std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
+                                             const std::atomic<bool>& stop) {
+  std::vector<std::string> names{origin.program};
+  for (const std::string& word : words_of(origin.command)) {
+    const std::filesystem::path file(word);
+    if (file.filename() == origin.program || file.stem() == origin.program) {
+      names.push_back(word);
+    }
+  }
+  for (const std::string& name : names) {
+    auto program = read_program(name, {}, stop);
+    if (program && program->sha256() == origin.program_sha256) {
+      return *std::move(program);
+    }
+  }
+  return std::nullopt;
 }
 
 hal::Axis axis_of(const std::string& name) { return name == "x" ? hal::kX : hal::kY; }

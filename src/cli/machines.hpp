@@ -14,14 +14,17 @@
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/rig_machine.hpp"
 #include "session/machine.hpp"
+#include "session/pictures.hpp"
 
 /// From the options of a command to program, machine file, machine and rig.
 namespace twin::cli {
 
 /// Reads the program that a command names.
 ///
-/// @param out  folder of the results, where the copy of a long program is kept; may be empty
-Expected<gcode::ProgramText> read_program(const std::string& name, const std::atomic<bool>& stop,
+/// @param machine  names the folders of subprograms
+/// @param out      folder of the results, where the copy of a long program is kept; may be empty
+Expected<gcode::ProgramText> read_program(const std::string& name, const MachineArguments& machine,
+                                          const std::atomic<bool>& stop,
                                           const std::filesystem::path& out = {});
 
 /// The machine file with the settings of the command line. What the reader notes of it is printed
@@ -30,6 +33,11 @@ Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Ve
 
 /// What makes the machine of --hal. A real one is confirmed by the user first.
 session::MakeMachine machine_of(const HalArguments& arguments);
+
+/// The program of a trace, where it is still there and still the same: by its name, or by the path
+/// that the command line of the run had.
+std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
+                                             const std::atomic<bool>& stop);
 
 /// "x" or "y" as an axis.
 hal::Axis axis_of(const std::string& name);

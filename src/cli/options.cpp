@@ -5,187 +5,25 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
-#include "core/units.hpp"
+#include "cli/option_groups.hpp"
 
 namespace twin::cli {
-namespace {
-
-// Groups of options.
-
-CLI::Option* add_feedrate(CLI::App& command, std::optional<double>& feedrate,
-                          const std::string& text = "Feedrate in place of the program's F words") {
-  const auto take = [&feedrate](double given) {
-    feedrate = units::mm_per_s_from_mm_per_min(given);
-  };
-  return command.add_option_function<double>("--feedrate-mm-per-min", take, text)
-      ->check(CLI::Range(1e-3, 1e6))
-      ->type_name("F");
-}
-
-void add_program(CLI::App& command, ProgramArguments& program) {
-  const auto take = [&program](const std::vector<std::string>& given) {
-    program.name = given.front();
-  };
-  command
-      .add_option_function<std::vector<std::string>>(
-          "program", take, "NC program: a file, or the name of one in nc_programs")
-      ->required()
-      ->expected(1)
-      ->type_name("PROGRAM.nc");
-  add_feedrate(command, program.feedrate);
-}
-
-CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
-                      const std::string& text) {
-  return command.add_option(name, list, text)->take_all()->expected(1);
-}
-
-CLI::Option* add_machine_file(CLI::App& command, MachineArguments& machine,
-                              const std::string& text) {
-  return command.add_option("--machine", machine.file, text)
-      ->type_name("FILE.toml")
-      ->capture_default_str();
-}
-
-void add_machine(CLI::App& command, MachineArguments& machine) {
-  add_machine_file(command, machine, "Machine file: a file, or the name of one in mjcf");
-  add_list(command, "--set", machine.settings,
-           "Change a setting of the machine file, as in --set limits.jerk=20000 (repeatable)")
-      ->type_name("SECTION.KEY=VALUE");
-}
-
-void add_curves(CLI::App& command, MachineArguments& machine) {
-  const std::vector<std::string> kinds{"nurbs", "bezier", "linear"};
-  command
-      .add_option("--curves", machine.curves,
-                  "What runs of short blocks become: nurbs (C2 curves), bezier (Fast Bezier), "
-                  "linear (nothing else) [of the machine file: nurbs]")
-      ->check(CLI::IsMember(kinds))
-      ->type_name("NAME");
-  const auto take = [&machine](const std::string& given) {
-    machine.curves = given;
-    machine.has_old_name_of_curves = true;
-  };
-  command.add_option_function<std::string>("--interpolator", take, "Old name of --curves")
-      ->check(CLI::IsMember(kinds))
-      ->type_name("NAME")
-      ->excludes("--curves");
-}
-
-void add_simulated_hal(CLI::App& command, std::string& hal) {
-  command
-      .add_option("--hal", hal,
-                  "Machine: mujoco is the simulated table, ideal has position = set point")
-      ->check(CLI::IsMember({"mujoco", "ideal"}))
-      ->type_name("NAME")
-      ->capture_default_str();
-}
-
-void add_faults(CLI::App& command, std::vector<std::string>& faults) {
-  add_list(command, "--fault", faults,
-           "Break something of the emulated rig, as in --fault alarm:x@1.5 (repeatable)")
-      ->type_name("KIND[:AXIS]@SECONDS");
-}
-
-/// The rig that is looked at.
-void add_rig(CLI::App& command, RigArguments& rig) {
-  command
-      .add_option("--rig", rig.which,
-                  "Which rig: cards are the real ones, process is a running `twin rig emulate`, "
-                  "emulated is in this process and in simulated time, auto is cards or process")
-      ->check(CLI::IsMember({"auto", "cards", "process", "emulated"}))
-      ->type_name("NAME")
-      ->capture_default_str();
-  command
-      .add_option("--rig-name", rig.name, "Shared memory of the emulator's process [/twin-rig-UID]")
-      ->type_name("/NAME");
-}
-
-/// The rig that moves.
-void add_moving_rig(CLI::App& command, RigArguments& rig) {
-  add_rig(command, rig);
-  command.add_flag("--i-know-it-moves", rig.is_known_to_move,
-                   "Let a real machine move without asking");
-  add_faults(command, rig.faults);
-  command
-      .add_option("--rig-log", rig.log,
-                  "Write what happens at the boards of --rig emulated to this file")
-      ->type_name("FILE");
-}
-
-void add_hal(CLI::App& command, HalArguments& hal) {
-  command
-      .add_option("--hal", hal.name,
-                  "Machine: mujoco is the simulated table, ideal has position = set point, rig is "
-                  "the real one or its emulation")
-      ->check(CLI::IsMember({"mujoco", "ideal", "rig"}))
-      ->type_name("NAME")
-      ->capture_default_str();
-  add_moving_rig(command, hal.rig);
-}
-
-void add_overrides(CLI::App& command, std::string& overrides) {
-  command
-      .add_option("--override", overrides,
-                  "Change the feed override while moving, as in 0:100,2:50,3.5:0,5:150: seconds "
-                  "since the first set point, percent of the programmed feedrate (0 holds)")
-      ->type_name("S:PERCENT,...");
-}
-
-void add_quiet(CLI::App& command, Verbosity& verbosity,
-               const std::string& text = "Print errors only") {
-  command.add_flag_callback(
-      "--quiet", [&verbosity] { verbosity = Verbosity::kQuiet; }, text);
-}
-
-void add_no_plots(CLI::App& command, bool& has_plots) {
-  command.add_flag_callback(
-      "--no-plots", [&has_plots] { has_plots = false; }, "Draw no figures");
-}
-
-void add_results(CLI::App& command, ResultArguments& results,
-                 const std::string& folder = "PROGRAM") {
-  command.add_option("--out", results.folder, "Folder of the results [renders/" + folder + "]")
-      ->type_name("DIR");
-  add_no_plots(command, results.has_plots);
-  add_quiet(command, results.verbosity);
-}
-
-/// Results of which there are no plots.
-void add_last_results(CLI::App& command, ResultArguments& results, const std::string& text) {
-  command.add_option("--out", results.folder, text)->type_name("DIR");
-  add_quiet(command, results.verbosity);
-}
-
-void add_video(CLI::App& command, VideoArguments& video) {
-  command.add_flag("--video", video.is_wanted, "Render video.mp4, as long as the machining");
-  command.add_option("--camera", video.camera, "Camera of the video")
-      ->check(CLI::IsMember({"iso", "top"}))
-      ->type_name("NAME")
-      ->capture_default_str();
-}
-
-void add_axis(CLI::App& command, std::string& axis) {
-  command.add_option("--axis", axis, "Axis")
-      ->required()
-      ->check(CLI::IsMember({"x", "y"}))
-      ->type_name("x|y");
-}
-
-void add_duration(CLI::App& command, std::optional<double>& duration) {
-  command.add_option("--for", duration, "End after so long")
-      ->check(CLI::PositiveNumber)
-      ->type_name("SECONDS");
-}
-
-}  // namespace
 
 void add_options(CLI::App& command, RunArguments& run) {
+  command.footer(
+      "Examples:\n"
+      "  twin run dolphin.nc\n"
+      "  twin run part.nc --set servo.x.kp_per_s=250 --out soft\n"
+      "  twin run part.nc --no-trace --json\n"
+      "  twin run dolphin.nc --hal rig --rig emulated --fault alarm:x@1.5");
   add_program(command, run.program);
+  begin_group(command, "Machine");
   add_machine(command, run.machine);
+  add_reading(command, run.machine);
   add_curves(command, run.machine);
-  add_overrides(command, run.overrides);
   add_hal(command, run.hal);
+  begin_group(command, "While it runs");
+  add_overrides(command, run.overrides);
   command.add_flag("--realtime", run.is_on_wall_clock,
                    "Keep to the wall clock; keys: + - 0 to 9 feed override, space feed hold");
   command
@@ -196,18 +34,32 @@ void add_options(CLI::App& command, RunArguments& run) {
         return std::string(name.empty() ? "the socket needs a name" : "");
       })
       ->type_name("PATH");
-  add_results(command, run.results);
+  command
+      .add_option_function<int>(
+          "--view", [&run](int port) { run.view = port; },
+          "On the wall clock: serve the page of the run while it goes on, at an address that is "
+          "printed; of this computer alone, at a port or any (0)")
+      ->check(CLI::Range(0, 65535))
+      ->type_name("PORT");
+  command
+      .add_option("--publish", run.publish,
+                  "Send the rows as they come, as JSON that PlotJuggler shows, as in "
+                  "udp://127.0.0.1:9870")
+      ->type_name("ADDRESS");
+  begin_group(command, "Results");
+  add_run_results(command, run.results);
   add_video(command, run.video);
 }
 
 void add_options(CLI::App& command, PlanArguments& plan) {
   add_program(command, plan.program);
   add_machine(command, plan.machine);
+  add_reading(command, plan.machine);
   add_curves(command, plan.machine);
   command.add_flag("--bound", plan.has_bound,
                    "The lower bound of the time as well: the same path without jerk limit");
   add_overrides(command, plan.overrides);
-  add_results(command, plan.results);
+  add_run_results(command, plan.results);
 }
 
 void add_options(CLI::App& command, CheckArguments& check) {
@@ -216,6 +68,12 @@ void add_options(CLI::App& command, CheckArguments& check) {
       ->type_name("PROGRAM.nc ...");
   add_feedrate(command, check.feedrate);
   add_machine(command, check.machine);
+  add_reading(command, check.machine);
+  command.add_flag("--json", check.is_json, "Write what is found as one JSON document on stdout");
+  command.add_option("--most-errors", check.most_errors, "Errors of a program that are shown")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N")
+      ->capture_default_str();
   add_quiet(command, check.verbosity);
 }
 
@@ -229,15 +87,52 @@ void add_options(CLI::App& command, RenderArguments& render) {
   add_video(command, render.video);
 }
 
+void add_options(CLI::App& command, ReportArguments& report) {
+  command.footer(
+      "Examples:\n"
+      "  twin report renders/dolphin\n"
+      "  twin report soft stiff --out both.html");
+  command
+      .add_option("directories", report.folders,
+                  "Folders of earlier runs; several are shown on one page, over each other")
+      ->required()
+      ->type_name("DIR ...");
+  command
+      .add_option("--out", report.file,
+                  "The page to write [DIR/report.html, of several runs renders/report.html]")
+      ->type_name("FILE.html");
+  add_quiet(command, report.verbosity);
+}
+
+void add_options(CLI::App& command, SettingsArguments& settings) {
+  command.footer(
+      "Examples:\n"
+      "  twin settings\n"
+      "  twin settings limits --machine my.toml\n"
+      "  twin settings servo --set servo.x.kp_per_s=400");
+  command
+      .add_option("filter", settings.filter,
+                  "Only settings with this in their name, as in limits or servo.x")
+      ->type_name("TEXT");
+  add_machine(command, settings.machine);
+}
+
 void add_options(CLI::App& command, CompareArguments& compare) {
+  command.footer(
+      "A setting that is given several times is varied: a run each, and a page of all.\n"
+      "Examples:\n"
+      "  twin compare dolphin.nc\n"
+      "  twin compare --set servo.x.kp=200 --set servo.x.kp=300 dolphin.nc\n"
+      "  twin compare renders/soft renders/stiff");
   command
       .add_option("program", compare.programs,
                   "NC programs: files, or names of some in nc_programs; more than one are planned "
-                  "only, a line each program and planner")
+                  "only, a line each program and planner. Or folders of runs: a page of them")
       ->required()
       ->type_name("PROGRAM.nc");
   add_feedrate(command, compare.feedrate);
   add_machine(command, compare.machine);
+  add_reading(command, compare.machine);
   add_simulated_hal(command, compare.hal);
   add_results(command, compare.results, "PROGRAM_compare");
 }
@@ -274,8 +169,13 @@ void add_options(CLI::App& command, IdentifyArguments& identify) {
   command
       .add_option("--columns", identify.columns,
                   "Columns of foreign traces, as in t=time:ms,x_cmd=ref,x_meas=pos:um; signals t, "
-                  "x_cmd, x_meas, x_V, y_cmd, y_meas, y_V; units s ms us m mm um V mV")
+                  "x_cmd, x_meas, x_V, x_force, x_torque and those of y; units s ms us, 2ms of a "
+                  "counter, m mm um, V mV mm/s m/s rpm, N kN, N_m")
       ->type_name("SIGNAL=COLUMN[:UNIT],...");
+  add_list(command, "--validate", identify.validating,
+           "Traces that are predicted and not fitted; without, the end of each trace is held out")
+      ->type_name("TRACE.csv");
+  add_no_plots(command, identify.has_plots);
   command
       .add_option("--out", identify.file,
                   "Machine file to write; identify.json is put beside it "
@@ -308,6 +208,7 @@ void add_options(CLI::App& command, ConvertArguments& convert) {
       ->check(dialect_error)
       ->type_name("DIALECT");
   add_machine(command, convert.machine);
+  add_reading(command, convert.machine);
   add_curves(command, convert.machine);
   command.add_option("--out", convert.file, "File to write [renders/PROGRAM/PROGRAM.DIALECT.nc]")
       ->type_name("FILE");

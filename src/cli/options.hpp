@@ -13,6 +13,8 @@ void add_options(CLI::App& command, RunArguments& arguments);
 void add_options(CLI::App& command, PlanArguments& arguments);
 void add_options(CLI::App& command, CheckArguments& arguments);
 void add_options(CLI::App& command, RenderArguments& arguments);
+void add_options(CLI::App& command, ReportArguments& arguments);
+void add_options(CLI::App& command, SettingsArguments& arguments);
 void add_options(CLI::App& command, CompareArguments& arguments);
 void add_options(CLI::App& command, ReproduceArguments& arguments);
 void add_options(CLI::App& command, CircleArguments& arguments);

@@ -53,6 +53,33 @@ std::string axis_text(std::size_t axis, const rig::RigView& view, double mm_per_
                      flags.empty() ? " off" : flags);
 }
 
+/// The same in less room: "  x 1234 8.339 mm 0.01 V ready".
+std::string short_axis_text(std::size_t axis, const rig::RigView& view, double mm_per_count) {
+  const rig::DriveInputs& drive = view.drives[axis];
+  const char* const state = drive.alarm            ? "ALARM"
+                            : drive.limit_positive ? "P-OT"
+                            : drive.limit_negative ? "N-OT"
+                            : drive.ready          ? "ready"
+                                                   : "off";
+  return fmt::format("  {} {:>8.3f} mm {:>6} V {:<5}", "xy"[axis],
+                     static_cast<double>(view.counts[axis]) * mm_per_count,
+                     view.vref[axis] ? fmt::format("{:.2f}", *view.vref[axis]) : "-", state);
+}
+
+/// One line of the monitor that fits into a terminal. @param columns  0: no terminal
+std::string monitor_line(double t, const rig::RigView& view, const hal::MachineInfo& info,
+                         std::size_t columns) {
+  const auto line = [&](auto&& of_axis) {
+    return of_axis(hal::kX, view, info.mm_per_count[hal::kX]) +
+           of_axis(hal::kY, view, info.mm_per_count[hal::kY]);
+  };
+  std::string text = fmt::format("{:8.1f} s{}  DI {:#06x}", t, line(axis_text), view.digital);
+  if (columns > 0 && text.size() >= columns) {
+    text = fmt::format("{:.1f} s{}", t, line(short_axis_text));
+  }
+  return columns > 0 ? text.substr(0, columns - 1) : text;
+}
+
 std::string signal(const rig::Line& line, bool given, const char* yes, const char* no) {
   return line.channel < 0 ? "not wired" : given ? yes : no;
 }
@@ -127,10 +154,9 @@ Expected<void> execute(const RigMonitorArguments& arguments, const Environment& 
     if (view.board_id_1716 < 0 || view.board_id_1784 < 0) {
       return fail(ErrorCode::kMachine, "a card does not answer: all its registers read ones");
     }
-    print_out("{}{:8.1f} s{}{}  DI {:#06x}{}", is_terminal ? "\r" : "", t,
-              axis_text(hal::kX, view, info.mm_per_count[hal::kX]),
-              axis_text(hal::kY, view, info.mm_per_count[hal::kY]), view.digital,
-              is_terminal ? "" : "\n");
+    const std::string line =
+        monitor_line(t, view, info, is_terminal ? columns_of(STDOUT_FILENO) : 0);
+    print_out("{}{}{}", is_terminal ? "\r" : "", line, is_terminal ? "\033[K" : "\n");
     TWIN_CHECK(finish_output());
   }
   if (is_terminal) {

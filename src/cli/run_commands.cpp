@@ -1,15 +1,25 @@
 #include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
+#include "live/live_view.hpp"
+#include "live/publisher.hpp"
 #include "operator/operator_station.hpp"
 #include "results/metrics/summary.hpp"
-#include "runtime/program_check.hpp"
+#include "runtime/run_options.hpp"
 #include "session/pictures.hpp"
+#include "session/report.hpp"
 #include "session/session.hpp"
 
 // The commands that read a program, run it and show what came of it; and help.
@@ -26,13 +36,28 @@ Expected<session::Request> request_of(const ProgramArguments& program,
                                       const std::atomic<bool>& stop) {
   session::Request request;
   TWIN_TRY(request.machine, read_machine(machine, results.verbosity));
-  TWIN_TRY(request.program, read_program(program.name, stop, results.folder));
+  TWIN_TRY(request.program, read_program(program.name, machine, stop, results.folder));
   request.feedrate = program.feedrate;
   request.folder = results.folder;
+  request.columns = results.columns;
+  request.has_trace = results.has_trace;
   if (!overrides.empty()) {
     TWIN_TRY(request.overrides, runtime::parse_override_schedule(overrides));
   }
   return request;
+}
+
+/// Notes in one line, as in "dolphin.nc: 3 notes (tool, message), which twin check shows".
+std::string summary_of(const std::vector<gcode::Note>& notes, const std::string& program) {
+  std::set<std::string> kinds;
+  for (const gcode::Note& note : notes) {
+    std::string kind(name_of(note.kind));
+    std::ranges::replace(kind, '_', ' ');
+    kinds.insert(std::move(kind));
+  }
+  return fmt::format("{}: {} {} ({}); twin check shows {}", program, notes.size(),
+                     notes.size() == 1 ? "note" : "notes", fmt::join(kinds, ", "),
+                     notes.size() == 1 ? "it" : "them");
 }
 
 /// Runs with a progress bar, and on the wall clock with what an operator needs.
@@ -62,22 +87,70 @@ Expected<runtime::RunResult> run_with_operator(session::Session& session, Verbos
   attendance.estimated = [&progress](double time) {
     progress.rename(fmt::format("machining, {:.1f} s", time));
   };
+  if (verbosity == Verbosity::kNormal) {
+    attendance.noted = [&session](const std::vector<gcode::Note>& notes) {
+      print_note(summary_of(notes, session.program().string()));
+    };
+  }
   return session.run(attendance);
+}
+
+/// Page and plots of a run that ended early; what fails here is not said, because why the run ended
+/// is what matters. A user who interrupts does not wait for plots.
+void show_what_was_done(const session::Session& session, const Error& why,
+                        const ResultArguments& results) {
+  if (!results.has_trace) {
+    return;
+  }
+  if (results.has_page) {
+    static_cast<void>(session.write_report());
+  }
+  if (results.has_plots && why.code != ErrorCode::kInterrupted) {
+    static_cast<void>(session.draw_figures());
+  }
 }
 
 /// Prints what a run has shown, and hands on why it ended early.
 Expected<void> report_run(const session::Session& session, const runtime::RunResult& result,
-                          Verbosity verbosity) {
-  if (verbosity == Verbosity::kNormal) {
+                          const ResultArguments& results) {
+  if (results.has_json) {
+    print_out("{}", results::to_json(result.summary));
+  } else if (results.verbosity == Verbosity::kNormal) {
     print_out("{}", results::to_table(result.summary, session.machine().limits));
   }
-  return result.failure ? tl::unexpected(*result.failure) : Expected<void>();
+  if (!result.failure) {
+    return {};
+  }
+  show_what_was_done(session, *result.failure, results);
+  return tl::unexpected(*result.failure);
 }
 
-/// Plots and video of what has been run, and where they are.
-Expected<void> make_pictures(const session::Session& session, const ResultArguments& results,
+/// What the chosen columns suffice for; a note says what is left out.
+void leave_out_pictures(ResultArguments& results) {
+  const std::string columns = "," + results.columns + ",";
+  const auto has = [&columns](const char* name) {
+    return columns.find("," + std::string(name) + ",") != std::string::npos;
+  };
+  if (results.columns.empty() || has("default") || has("all")) {
+    return;
+  }
+  const bool has_page = has("t_s") && has("x_cmd_mm") && has("y_cmd_mm");
+  if (results.verbosity == Verbosity::kNormal && (results.has_plots || results.has_page)) {
+    print_note(has_page ? "no plots: they need the default columns"
+                        : "no plots and no report: they need the default columns");
+  }
+  results.has_plots = false;
+  results.has_page = results.has_page && has_page;
+}
+
+/// Page, plots and video of what has been run, and where they are.
+Expected<void> make_pictures(const session::Session& session, ResultArguments results,
                              const VideoArguments& video) {
-  if (results.has_plots) {
+  leave_out_pictures(results);
+  if (results.has_page && results.has_trace) {
+    TWIN_CHECK(session.write_report());
+  }
+  if (results.has_plots && results.has_trace) {
     Progress progress("plots", results.verbosity);
     progress.show(0.0);
     TWIN_CHECK(session.draw_figures());
@@ -86,10 +159,44 @@ Expected<void> make_pictures(const session::Session& session, const ResultArgume
     Progress progress("video", results.verbosity);
     TWIN_CHECK(session.render_video(video.camera, progress.callback()));
   }
-  if (results.verbosity == Verbosity::kNormal) {
-    print_out("results in {}\n", session.folder().string());
+  if (results.verbosity == Verbosity::kNormal && !results.has_json) {
+    const bool has_page = results.has_page && results.has_trace;
+    print_out("results in {}{}\n", session.folder().string(),
+              has_page ? "; look at report.html" : "");
   }
   return {};
+}
+
+}  // namespace
+
+namespace {
+
+/// Whoever gets the rows of a run besides its trace.
+struct Audience {
+  std::unique_ptr<live::LiveView> view;
+  std::unique_ptr<live::Publisher> publisher;
+};
+
+Expected<Audience> invite(const RunArguments& arguments, session::Session& session) {
+  Audience audience;
+  if (arguments.view) {
+    if (!session.is_on_wall_clock()) {
+      return fail(ErrorCode::kUsage,
+                  "--view is for runs on the wall clock: --realtime or --hal rig; in simulated "
+                  "time there is report.html afterwards");
+    }
+    const hal::MachineInfo& info = session.hal()->info();
+    TWIN_TRY(audience.view,
+             live::open_live_view({session.text(), session.machine(), info.name, info.simulated},
+                                  *arguments.view));
+    session.add_sink(*audience.view);
+    print_note("look at " + audience.view->address());
+  }
+  if (!arguments.publish.empty()) {
+    TWIN_TRY(audience.publisher, live::Publisher::open(arguments.publish));
+    session.add_sink(*audience.publisher);
+  }
+  return audience;
 }
 
 }  // namespace
@@ -102,9 +209,10 @@ Expected<void> execute(const RunArguments& arguments, const Environment& environ
   request.make_machine = machine_of(arguments.hal);
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
+  TWIN_TRY(const Audience audience, invite(arguments, session));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
-  TWIN_CHECK(report_run(session, result, arguments.results.verbosity));
+  TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, arguments.video);
 }
 
@@ -117,23 +225,11 @@ Expected<void> execute(const PlanArguments& arguments, const Environment& enviro
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const runtime::RunResult result,
            run_with_operator(session, arguments.results.verbosity, {}, environment.stop));
-  TWIN_CHECK(report_run(session, result, arguments.results.verbosity));
+  TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, {});
 }
 
 // Render.
-
-namespace {
-
-/// The program of a trace, where it is still there and still the same.
-std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
-                                             const std::atomic<bool>& stop) {
-  auto program = read_program(origin.program, stop);
-  const bool is_same = program && program->sha256() == origin.program_sha256;
-  return is_same ? std::optional(*std::move(program)) : std::nullopt;
-}
-
-}  // namespace
 
 Expected<void> execute(const RenderArguments& arguments, const Environment& environment) {
   TWIN_TRY(const session::TraceOrigin origin, session::read_origin(arguments.folder));
@@ -145,55 +241,36 @@ Expected<void> execute(const RenderArguments& arguments, const Environment& envi
   if (arguments.has_plots) {
     Progress progress("plots", arguments.verbosity);
     progress.show(0.0);
-    TWIN_CHECK(session::draw_figures(
-        {arguments.folder, program_of(origin, environment.stop), origin.program, origin.kind}));
+    TWIN_CHECK(session::draw_figures({arguments.folder, program_of(origin, environment.stop),
+                                      origin.program, origin.kind, origin.trace.filename().string(),
+                                      origin.reading}));
   }
   if (arguments.video.is_wanted) {
     Progress progress("video", arguments.verbosity);
     TWIN_CHECK(session::render_video({arguments.folder, machine.table.model, origin.program,
-                                      arguments.video.camera, progress.callback()}));
+                                      arguments.video.camera, progress.callback(),
+                                      origin.trace.filename().string()}));
   }
   return {};
 }
 
-// Check.
+// Report.
 
-namespace {
-
-Expected<void> check_program_of(const std::string& name, const CheckArguments& arguments,
-                                const config::MachineFile& machine, const std::atomic<bool>& stop) {
-  TWIN_TRY(const gcode::ProgramText program, read_program(name, stop));
-  gcode::ReaderOptions reading;
-  reading.feedrate = arguments.feedrate;
-  TWIN_TRY(const runtime::Estimate estimate,
-           runtime::estimate_program(program, reading, machine, &stop));
+Expected<void> execute(const ReportArguments& arguments, const Environment& environment) {
+  std::filesystem::path file = arguments.file;
+  if (file.empty()) {
+    file = (arguments.folders.size() == 1 ? arguments.folders.front()
+                                          : std::filesystem::path("renders")) /
+           session::kReportName;
+  }
+  TWIN_CHECK(session::write_report(
+      arguments.folders,
+      [&](const session::TraceOrigin& origin) { return program_of(origin, environment.stop); },
+      file));
   if (arguments.verbosity == Verbosity::kNormal) {
-    const runtime::ProgramFigures& figures = estimate.program;
-    print_out(
-        "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
-        "cycle time {:.3f} s\n",
-        program.file().string(), figures.blocks, figures.length, figures.box_min.x(),
-        figures.box_max.x(), figures.box_min.y(), figures.box_max.y(), figures.box_min.z(),
-        figures.box_max.z(), estimate.plan.time);
+    print_out("{}\n", file.string());
   }
   return {};
-}
-
-}  // namespace
-
-/// Checks all the programs, so that one call shows what is wrong with each.
-Expected<void> execute(const CheckArguments& arguments, const Environment& environment) {
-  TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
-  Expected<void> result;
-  for (const std::string& name : arguments.programs) {
-    if (auto checked = check_program_of(name, arguments, machine, environment.stop); !checked) {
-      if (!result) {
-        print_error(result.error());
-      }
-      result = checked;
-    }
-  }
-  return result;
 }
 
 // Help and version.

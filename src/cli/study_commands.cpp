@@ -5,10 +5,12 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/compare_runs.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
+#include "runtime/run_options.hpp"
 #include "session/machine.hpp"
 #include "session/results.hpp"
 #include "studies/circular/circle_test.hpp"
@@ -31,10 +33,11 @@ constexpr const char* kCurveProgram = "butterfly_nurbs.nc";
 
 /// Reads the programs named.
 Expected<std::vector<gcode::ProgramText>> read_programs(const std::vector<std::string>& names,
+                                                        const MachineArguments& machine,
                                                         const std::atomic<bool>& stop) {
   std::vector<gcode::ProgramText> programs;
   for (const std::string& name : names) {
-    TWIN_TRY(gcode::ProgramText program, read_program(name, stop));
+    TWIN_TRY(gcode::ProgramText program, read_program(name, machine, stop));
     programs.push_back(std::move(program));
   }
   return programs;
@@ -110,9 +113,20 @@ Expected<void> compare_planners(const ResultArguments& results, studies::compare
 }  // namespace
 
 Expected<void> execute(const CompareArguments& arguments, const Environment& environment) {
-  TWIN_TRY(const auto programs, read_programs(arguments.programs, environment.stop));
-  TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
+  if (are_folders(arguments.programs)) {
+    return compare_folders(arguments, environment);
+  }
+  TWIN_TRY(const auto variants, variants_of(arguments.machine.settings));
+  TWIN_TRY(const auto programs,
+           read_programs(arguments.programs, arguments.machine, environment.stop));
   const bool is_one = programs.size() == 1;
+  if (!variants.empty()) {
+    return is_one ? compare_variants(arguments, variants, programs.front(), environment)
+                  : fail(ErrorCode::kUsage,
+                         "several values of a setting are compared on one program, not on " +
+                             std::to_string(programs.size()));
+  }
+  TWIN_TRY(studies::compare::Request request, request_of(arguments, programs.front()));
   const std::filesystem::path out = session::result_folder(
       arguments.results.folder,
       is_one ? request.program.file().stem().string() + "_compare" : std::string("compare"));
@@ -259,7 +273,8 @@ std::string dialect_error(const std::string& name) {
 
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment) {
   TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
-  TWIN_TRY(const auto program, read_program(arguments.program.name, environment.stop));
+  TWIN_TRY(const auto program,
+           read_program(arguments.program.name, arguments.machine, environment.stop));
   const std::filesystem::path& source = program.file();
   const std::filesystem::path file = converted_file(arguments, source);
   TWIN_CHECK(session::prepare_output_file(file));
@@ -267,8 +282,9 @@ Expected<void> execute(const ConvertArguments& arguments, const Environment& env
   if (std::filesystem::equivalent(file, source, ignored)) {
     return fail(ErrorCode::kUsage, "--out " + file.string() + " is the program itself");
   }
-  studies::convert::Job job{program, {}, machine.path, machine.planning, machine.limits};
-  job.reading.feedrate = arguments.program.feedrate;
+  const studies::convert::Job job{program,
+                                  runtime::reader_options(machine, arguments.program.feedrate),
+                                  machine.path, machine.planning, machine.limits};
   TWIN_TRY(const auto checked, studies::convert::convert_and_check(job, arguments.dialect));
   TWIN_CHECK(write_whole_file(file, checked.conversion.text));
   if (arguments.verbosity == Verbosity::kNormal) {

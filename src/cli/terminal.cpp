@@ -16,15 +16,6 @@ namespace {
 constexpr int kBarWidth = 30;              // [characters]
 constexpr std::size_t kMessageIndent = 6;  // of the lines after the first: under "twin: "
 
-/// Columns of the terminal at stderr; 0 where there is none.
-std::size_t columns_of_stderr() {
-  if (isatty(STDERR_FILENO) != 1) {
-    return 0;
-  }
-  struct winsize size {};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
-}
-
 /// Writes on stderr. That it cannot be written is nothing that could be told.
 void put_error(const std::string& text) {
   std::fputs(text.c_str(), stderr);
@@ -43,7 +34,7 @@ std::string visible(std::string_view text) {
 
 void print_message(std::string_view text) {
   const std::string line = visible(text);
-  const std::size_t columns = columns_of_stderr();
+  const std::size_t columns = columns_of(STDERR_FILENO);
   put_error((columns > 2 * kMessageIndent ? wrapped(line, kMessageIndent, 0, columns) : line) +
             "\n");
 }
@@ -57,6 +48,14 @@ void note_output(bool is_written) {
 }
 
 }  // namespace
+
+std::size_t columns_of(int stream) {
+  if (isatty(stream) != 1) {
+    return 0;
+  }
+  struct winsize size {};
+  return ioctl(stream, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
 
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t first,
                     std::size_t width) {

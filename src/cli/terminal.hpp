@@ -18,6 +18,9 @@ enum class Verbosity {
   kQuiet,  ///< --quiet
 };
 
+/// Columns of the terminal at a stream, as STDERR_FILENO; 0 where there is none.
+std::size_t columns_of(int stream);
+
 /// Breaks a text at its blanks so that no line is longer than `width`; a word that is longer has a
 /// line of its own. Line breaks of the text stay.
 ///

@@ -74,7 +74,7 @@ struct Assign {
   }
   Expected<void> operator()(std::string* field) const {
     const auto* text = std::get_if<std::string>(&value);
-    if (text == nullptr || text->empty()) {
+    if (text == nullptr || static_cast<double>(text->size()) < b.min) {
       return wrong_type(b, value, "a text");
     }
     *field = *text;

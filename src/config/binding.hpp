@@ -41,7 +41,7 @@ struct Binding {
   std::string name;     ///< "acceleration"
   std::string unit;     ///< "mm_per_s2", or empty
   Target target;
-  double min;                    ///< smallest value, in the key's unit
+  double min;                    ///< smallest value, in the key's unit; of a text its least length
   double max;                    ///< largest value, in the key's unit
   std::string_view doc;          ///< what it means, in a few words
   double per_base = 1.0;         ///< how many of the key's unit are one base unit: 60 for mm/min

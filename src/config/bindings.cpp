@@ -12,6 +12,25 @@ using List = std::vector<Binding>;
 
 constexpr double kPerMinute = units::mm_per_min_from_mm_per_s(1.0);
 
+void add_program(List& list, ProgramSettings& p) {
+  const char* section = "program";
+  list.push_back({section, "dialect", "",
+                  choice(p.dialect, {kDialectNames.begin(), kDialectNames.end()}), 0.0, 0.0,
+                  "whose language programs are written in, where controls differ"});
+  list.push_back({section, "ignored_axes", "", &p.ignored_axes, 0.0, 0.0,
+                  "letters of A B C U V W whose words are left out"});
+  list.push_back({section, "default_feedrate", "mm_per_min", &p.default_feedrate, 0.0, 1e5,
+                  "of feed moves before the first F; 0: they are refused", kPerMinute});
+  list.push_back({section, "workpiece", "mm", &p.workpiece, -1e4, 1e4,
+                  "where the origin of a program's coordinates lies (x, y, z)"});
+  list.push_back({section, "tool_table", "", &p.tool_table, 0.0, 0.0,
+                  "file with lengths and diameters of tools, as LinuxCNC has it; empty: none"});
+  list.push_back({section, "skips_deleted", "", &p.skips_deleted, 0.0, 0.0,
+                  "lines that begin with / are left out"});
+  list.push_back({section, "most_lines", "", &p.most_lines, 1.0, 2e9,
+                  "lines that loops and calls may execute again"});
+}
+
 void add_limits(List& list, Limits& l) {
   const char* section = "limits";
   list.push_back({section, "feedrate", "mm_per_min", &l.feedrate, 1.0, 1e5,
@@ -86,11 +105,17 @@ void add_interpolator(List& list, motion::InterpolatorSettings& i, double& perio
 
 void add_servo(List& list, const std::string& section, motion::Gains& g) {
   list.push_back({section, "kp", "per_s", &g.kp, 0.0, 1e5, "position gain"});
-  list.push_back({section, "kd", "", &g.kd, 0.0, 1e3, "derivative gain"});
-  list.push_back({section, "kf", "", &g.kf, 0.0, 10.0, "velocity feedforward"});
+  list.push_back({section, "kd", "", &g.kd, -1e3, 1e3, "derivative gain"});
+  list.push_back({section, "kf", "", &g.kf, -10.0, 10.0, "velocity feedforward"});
   list.push_back({section, "ka", "s", &g.ka, -1.0, 1.0, "acceleration feedforward"});
   list.push_back({section, "trim", "V", &g.trim_V, -10.0, 10.0,
                   "added to the drive command against its offset"});
+  list.push_back(
+      {section, "kv", "", &g.kv, 0.0, 1e3, "velocity feedback, for a drive in torque mode"});
+  list.push_back({section, "kv_periods", "", &g.kv_periods, 1, motion::kMostVelocityPeriods,
+                  "over which the measured velocity is a mean"});
+  list.push_back({section, "command_delay", "ms", &g.command_delay, 0.0, 50.0,
+                  "how late the set point reaches the position loop", 1e3});
 }
 
 void add_home(List& list, const std::string& section, HomeSettings& home) {
@@ -108,6 +133,7 @@ void add_home(List& list, const std::string& section, HomeSettings& home) {
 
 std::vector<Binding> bindings(MachineFile& machine) {
   List list;
+  add_program(list, machine.program);
   add_limits(list, machine.limits);
   add_planning(list, machine.planning, machine.path);
   add_path(list, machine.path.curves);

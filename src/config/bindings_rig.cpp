@@ -54,8 +54,8 @@ std::vector<Binding> rig_bindings(RigSettings& rig) {
                   "how the cards are driven"});
   list.push_back({section, "access", "", choice(rig.access, {"sysfs", "ioperm"}), 0.0, 0.0,
                   "how their registers are reached"});
-  list.push_back({section, "sysfs", "", &rig.sysfs, 0.0, 0.0, "root below which cards are found"});
-  list.push_back({section, "daqnavi_library", "", &rig.daqnavi_library, 0.0, 0.0,
+  list.push_back({section, "sysfs", "", &rig.sysfs, 1.0, 0.0, "root below which cards are found"});
+  list.push_back({section, "daqnavi_library", "", &rig.daqnavi_library, 1.0, 0.0,
                   "name or path; for daqnavi only"});
   list.push_back({section, "pci1716_board_id", "", &rig.pci1716_board_id, 0.0, 15.0,
                   "switch on the PCI-1716"});

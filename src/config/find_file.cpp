@@ -20,6 +20,8 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, error) && !is_folder(path);
 }
 
+constexpr const char* kProgramEndings[] = {".nc", ".ngc", ".gcode", ".tap"};
+
 std::vector<std::string> names_in(std::span<const fs::path> folders, std::string_view extension) {
   std::vector<std::string> names;
   for (const fs::path& folder : folders) {
@@ -76,7 +78,9 @@ Expected<fs::path> find_file(std::string_view kind, const std::string& name,
       message +=
           (&folder == &folders.front() ? ", neither here nor in " : " or ") + folder.string();
     }
-    message += did_you_mean(name, names_in(folders, extension));
+    std::vector<fs::path> all(folders.begin(), folders.end());
+    all.emplace_back(".");
+    message += did_you_mean(name, names_in(all, extension));
   }
   return tl::unexpected<Error>(Error{ErrorCode::kFile, message, name, 0, 0});
 }
@@ -84,6 +88,11 @@ Expected<fs::path> find_file(std::string_view kind, const std::string& name,
 Expected<fs::path> find_program(const std::string& name) {
   if (name == "-") {
     return fs::path("/dev/stdin");
+  }
+  for (const char* ending : kProgramEndings) {  // one here wins over one that comes with us
+    if (!name.empty() && !is_file(name) && is_file(name + ending)) {
+      return fs::path(name + ending);
+    }
   }
   return find_file("NC program", name, ".nc", data_folders("nc_programs"));
 }

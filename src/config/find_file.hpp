@@ -29,7 +29,8 @@ Expected<std::filesystem::path> find_file(std::string_view kind, const std::stri
                                           std::string_view extension,
                                           std::span<const std::filesystem::path> folders);
 
-/// An NC program: a path, a name in nc_programs, or "-" for standard input.
+/// An NC program: a path, with or without .nc, .ngc, .gcode or .tap; a name in nc_programs; or "-"
+/// for standard input.
 Expected<std::filesystem::path> find_program(const std::string& name);
 
 /// A machine file: a path, or a name in mjcf.

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
+#include "core/program_settings.hpp"
 #include "core/setting.hpp"
 #include "core/wall_clock.hpp"
 #include "hal/machine.hpp"
@@ -33,6 +34,7 @@ struct HomeSettings {
 struct MachineFile {
   std::string name = "xy_table";  ///< the file's name without extension
   std::filesystem::path file;     ///< where it was read from; empty: the built-in values
+  ProgramSettings program;
   Limits limits;
   PlanningModel planning;
   PathSettings path;

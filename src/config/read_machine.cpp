@@ -5,6 +5,7 @@
 #include <set>
 
 #include "config/binding.hpp"
+#include "config/find_file.hpp"
 #include "config/machine_file.hpp"
 #include "config/nearest_name.hpp"
 #include "config/rules.hpp"
@@ -96,6 +97,21 @@ class Reader {
   std::set<std::string> seen_;
 };
 
+/// The model of a machine file: beside the file, or where that has none, of the same name in a folder
+/// mjcf of the program, so that a copied machine file works anywhere. @returns an absolute path
+std::string find_model(const fs::path& folder, const std::string& name) {
+  const fs::path beside = fs::absolute(folder / name).lexically_normal();
+  std::error_code error;
+  if (!fs::exists(beside, error)) {
+    for (const fs::path& own : data_folders("mjcf")) {
+      if (fs::exists(own / name, error)) {
+        return fs::absolute(own / name).lexically_normal().string();
+      }
+    }
+  }
+  return beside.string();
+}
+
 }  // namespace
 
 void MachineFile::add_note(std::string note) {
@@ -117,8 +133,7 @@ Expected<MachineFile> parse_machine_file(std::string_view text, const fs::path& 
     return tl::unexpected(fits.error());
   }
   TWIN_CHECK(apply_overrides(machine, overrides));
-  machine.table.model =
-      fs::absolute(file.parent_path() / machine.table.model).lexically_normal().string();
+  machine.table.model = find_model(file.parent_path(), machine.table.model);
   return machine;
 }
 

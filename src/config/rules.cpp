@@ -116,6 +116,12 @@ Expected<void> check_rules(const MachineFile& machine) {
                               l.travel_min[i], l.travel_max[i], "xyz"[i]));
     }
   }
+  const std::string& ignored = machine.program.ignored_axes;
+  if (ignored.find_first_not_of("ABCUVWabcuvw") != std::string::npos) {
+    return fail(ErrorCode::kFile, fmt::format("program.ignored_axes is '{}': expected letters of A "
+                                              "B C U V W",
+                                              ignored));
+  }
   if (machine.path.min_segments > machine.path.max_segments) {
     return fail(ErrorCode::kFile,
                 fmt::format("planning.min_segments = {} is more than planning.max_segments = {}",

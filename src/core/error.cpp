@@ -17,7 +17,16 @@ std::string to_string(const Error& error) {
   return place.empty() ? error.message : place + ": " + error.message;
 }
 
-int exit_status(const Error& error) noexcept { return error.code == ErrorCode::kUsage ? 2 : 1; }
+int exit_status(const Error& error) noexcept {
+  switch (error.code) {
+    case ErrorCode::kUsage:
+      return 2;
+    case ErrorCode::kInterrupted:
+      return 130;
+    default:
+      return 1;
+  }
+}
 
 Failure::Failure(Error error)
     : std::runtime_error(to_string(error)), error_(std::make_shared<Error>(std::move(error))) {}

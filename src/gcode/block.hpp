@@ -45,9 +45,11 @@ Expected<std::shared_ptr<const ProgrammedCurve>> make_programmed_curve(geometry:
 struct Block {
   Motion motion = Motion::kLinear;
   PathMode path_mode = PathMode::kContinuous;
-  Vec3 start = Vec3::Zero();                     ///< [mm]
-  Vec3 end = Vec3::Zero();                       ///< [mm]
-  geometry::Arc arc;                             ///< used when motion is kArc
+  std::int16_t work_offset = 0;  ///< in force: 0 for G54 to 8 for G59.3, then those of G54.1
+  std::int32_t tool = 0;         ///< in the spindle; 0: none
+  Vec3 start = Vec3::Zero();     ///< [mm]
+  Vec3 end = Vec3::Zero();       ///< [mm]
+  geometry::Arc arc;             ///< used when motion is kArc
   std::shared_ptr<const ProgrammedCurve> nurbs;  ///< not null when motion is kNurbs
   double feedrate = 0.0;   ///< programmed feedrate [mm/s]; 0 for kRapid and kDwell
   double tolerance = 0.0;  ///< path tolerance of G64 P [mm]; 0: the machine's own

@@ -1,12 +1,15 @@
 #include "gcode/program_text.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -14,7 +17,7 @@
 #include "core/descriptor.hpp"
 #include "core/sha256.hpp"
 #include "core/stop_wish.hpp"
-#include "gcode/line_source.hpp"
+#include "gcode/text/line_source.hpp"
 
 namespace twin::gcode {
 namespace {
@@ -48,6 +51,30 @@ struct FileState {
            written.tv_sec == other.written.tv_sec && written.tv_nsec == other.written.tv_nsec;
   }
 };
+
+constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyz0123456789-_";
+
+/// The file of a subprogram in the first folder that has one. A link may not lead out of the folder.
+Expected<std::optional<fs::path>> find_subprogram(const std::vector<fs::path>& folders,
+                                                  const std::string& name) {
+  for (const fs::path& folder : folders) {
+    for (const char* ending : {".ngc", ".nc"}) {
+      std::error_code code;
+      const fs::path file = folder / (name + ending);
+      if (!fs::exists(file, code)) {
+        continue;
+      }
+      const fs::path real_folder = fs::canonical(folder, code);
+      const fs::path real_file = code ? fs::path() : fs::canonical(file, code);
+      if (code || real_file.parent_path() != real_folder) {
+        return named(file, ErrorCode::kFile,
+                     "is a link out of its folder: expected the subprogram itself");
+      }
+      return file;
+    }
+  }
+  return std::nullopt;
+}
 
 /// Makes a file without a name in a folder, or where that is not there, in the nearest folder above
 /// it. @returns its descriptor, or -1 and errno
@@ -177,6 +204,10 @@ struct ProgramText::Data {
   fs::path file;
   Bytes bytes;
   std::optional<FileState> state;  // of a regular file
+  std::vector<fs::path> folders;   // of subprograms
+  fs::path folder_of_copies;
+  mutable std::mutex guard;  // of what follows
+  mutable std::map<std::string, std::optional<ProgramText>> subprograms;
 };
 
 Expected<ProgramText> ProgramText::read(const fs::path& path, const Reading& reading) {
@@ -201,11 +232,15 @@ Expected<ProgramText> ProgramText::read(const fs::path& path, const Reading& rea
   struct stat after {};
   if (is_regular && !is_standard_input(path)) {
     data->state = FileState(before);
+    data->folders.push_back(path.has_parent_path() ? path.parent_path() : fs::path("."));
     if (::fstat(from.get(), &after) != 0 || FileState(after) != *data->state) {
       return named(path, ErrorCode::kFile,
                    "the NC program changed while it was read; nothing has moved");
     }
   }
+  data->folder_of_copies = reading.folder;
+  data->folders.insert(data->folders.end(), reading.subprogram_folders.begin(),
+                       reading.subprogram_folders.end());
   return ProgramText(std::move(data));
 }
 
@@ -249,8 +284,44 @@ Expected<std::size_t> ProgramText::copy(std::int64_t offset, std::span<char> to)
 
 bool ProgramText::has_changed() const {
   struct stat now {};
-  return data_->state &&
-         (::stat(data_->file.c_str(), &now) != 0 || FileState(now) != *data_->state);
+  if (data_->state && (::stat(data_->file.c_str(), &now) != 0 || FileState(now) != *data_->state)) {
+    return true;
+  }
+  const std::vector<ProgramText> others = subprograms();
+  return std::any_of(others.begin(), others.end(),
+                     [](const ProgramText& other) { return other.has_changed(); });
+}
+
+Expected<std::optional<ProgramText>> ProgramText::subprogram(const std::string& name) const {
+  if (name.empty() || name.find_first_not_of(kNameCharacters) != std::string::npos) {
+    return std::nullopt;
+  }
+  const std::lock_guard lock(data_->guard);
+  if (const auto known = data_->subprograms.find(name); known != data_->subprograms.end()) {
+    return known->second;
+  }
+  if (data_->subprograms.size() == kMostSubprograms) {
+    return named(data_->file, ErrorCode::kProgram,
+                 fmt::format("calls more than {} files of subprograms", kMostSubprograms));
+  }
+  std::optional<ProgramText> found;
+  TWIN_TRY(const std::optional<fs::path> file, find_subprogram(data_->folders, name));
+  if (file) {
+    TWIN_TRY(found, read(*file, {.folder = data_->folder_of_copies}));
+  }
+  data_->subprograms.emplace(name, found);
+  return found;
+}
+
+std::vector<ProgramText> ProgramText::subprograms() const {
+  const std::lock_guard lock(data_->guard);
+  std::vector<ProgramText> texts;
+  for (const auto& [name, text] : data_->subprograms) {
+    if (text) {
+      texts.push_back(*text);
+    }
+  }
+  return texts;
 }
 
 }  // namespace twin::gcode

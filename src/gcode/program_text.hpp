@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -28,6 +29,8 @@ class ProgramText {
   struct Reading {
     std::filesystem::path folder;  ///< where the copy of a long program is; empty: temporary files
     const std::atomic<bool>* stop = nullptr;  ///< ends a reading with kInterrupted; may be null
+    /// Where files of subprograms are looked for, behind the folder of the program itself.
+    std::vector<std::filesystem::path> subprogram_folders{};
   };
 
   /// Reads a program once, to its end. The path "-" is standard input.
@@ -43,6 +46,19 @@ class ProgramText {
   /// A program held in memory. @param name  stands for the file in messages
   static ProgramText from_text(std::string text, std::filesystem::path name);
 
+  static constexpr std::size_t kMostSubprograms = 100;  ///< files of one program
+
+  /// The file of a subprogram, NAME.ngc or NAME.nc in one of the folders; nothing where there is
+  /// none. It is read once, at the first call, and then belongs to the program: copies of this
+  /// object give the same bytes. Thread-safe.
+  ///
+  /// @param name  letters, digits, - and _; other names have no file
+  /// @returns an error if the file cannot be read, or lies outside the folder through a link
+  Expected<std::optional<ProgramText>> subprogram(const std::string& name) const;
+
+  /// The subprograms' files that were read so far, in the order of their names.
+  std::vector<ProgramText> subprograms() const;
+
   const std::filesystem::path& file() const noexcept;  ///< as it was named to read()
   std::int64_t size() const noexcept;                  ///< [bytes]
   const std::string& sha256() const noexcept;          ///< of the bytes, 64 hexadecimal digits
@@ -50,7 +66,8 @@ class ProgramText {
   /// Copies bytes from a place on. @returns how many; fewer than asked for at the end only
   Expected<std::size_t> copy(std::int64_t offset, std::span<char> to) const;
 
-  /// Whether the file of the program is another one by now: changed, replaced, or gone.
+  /// Whether the file of the program, or of a subprogram, is another one by now: changed, replaced,
+  /// or gone.
   bool has_changed() const;
 
  private:

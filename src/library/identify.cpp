@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "library/inside.hpp"
 #include "studies/identify/candidates.hpp"
 #include "studies/identify/identification_report.hpp"
@@ -23,7 +26,8 @@ Identification identify(const std::vector<std::string>& traces, const Settings& 
   const auto columns = value_of(inner::parse_columns(options.columns));
   std::vector<inner::Recording> recordings;
   for (const std::string& trace : traces) {
-    recordings.push_back(value_of(inner::read_recording(trace, columns, machine.limits)));
+    std::ranges::move(value_of(inner::read_recordings(trace, columns, machine.limits)),
+                      std::back_inserter(recordings));
   }
   const inner::Identification result = value_of(inner::identify(recordings, machine, fit));
   return {Inside::settings(result.machine), inner::to_machine_file(result), inner::to_table(result),

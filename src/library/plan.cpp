@@ -2,14 +2,15 @@
 #include "library/inside.hpp"
 #include "runtime/program_bound.hpp"
 #include "runtime/program_check.hpp"
+#include "runtime/run_options.hpp"
 
 namespace twin {
 
 Plan plan(const Program& program, const Settings& settings, const std::atomic<bool>* stop) {
   const auto& data = Inside::of(program);
   const config::MachineFile& machine = Inside::of(settings);
-  const auto estimate =
-      value_of(runtime::estimate_program(data.source, {.feedrate = data.feedrate}, machine, stop));
+  const auto estimate = value_of(runtime::estimate_program(
+      data.source, runtime::reader_options(machine, data.feedrate), machine, stop));
   return Inside::plan(program, settings, estimate.plan);
 }
 

@@ -4,6 +4,7 @@
 #include "config/find_file.hpp"
 #include "library/inside.hpp"
 #include "runtime/program_check.hpp"
+#include "runtime/run_options.hpp"
 
 namespace twin {
 
@@ -33,8 +34,9 @@ Program Program::with_feedrate(double feedrate) const {
 std::string Program::name() const { return data_->source.file().filename().string(); }
 
 ProgramFigures Program::check(const Settings& settings, const std::atomic<bool>* stop) const {
-  const auto found = value_of(runtime::check_program(data_->source, {.feedrate = data_->feedrate},
-                                                     Inside::of(settings).limits, stop));
+  const config::MachineFile& machine = Inside::of(settings);
+  const auto found = value_of(runtime::check_program(
+      data_->source, runtime::reader_options(machine, data_->feedrate), machine.limits, stop));
   ProgramFigures figures{.blocks = found.blocks, .length = found.length};
   for (std::size_t i = 0; i < 3; ++i) {
     figures.box_min[i] = found.box_min[static_cast<Eigen::Index>(i)];

@@ -26,16 +26,22 @@ struct InterpolatorSettings {
   CurveEnd curve_end = CurveEnd::kCarry;
 };
 
+inline constexpr int kMostVelocityPeriods = 8;  ///< of Gains::kv_periods
+
 /// Gains of one axis of the position loop that runs (not the planning gains).
 ///
-/// Command velocity u = Kp e + Kd de/dt + Kf v + Ka a with e = set point less measured, v and a of
-/// the set point; the drive command is u over the V-REF scale, plus a trim.
+/// Command velocity u = Kp e + Kd de/dt + Kf v + Ka a - Kv w with e = set point less measured, v and
+/// a of the set point and w the measured velocity; the drive command is u over the V-REF scale, plus
+/// a trim. A drive in torque mode has no loop of the speed, so Kv makes one here.
 struct Gains {
-  double kp = 150.0;    ///< position gain [1/s]
-  double kd = 0.0;      ///< derivative gain [-]
-  double kf = 1.0;      ///< velocity feedforward [-]
-  double ka = 0.0;      ///< acceleration feedforward [s]
-  double trim_V = 0.0;  ///< added to the drive command against the drive's offset [V]
+  double kp = 150.0;           ///< position gain [1/s]
+  double kd = 0.0;             ///< derivative gain [-]
+  double kf = 1.0;             ///< velocity feedforward [-]
+  double ka = 0.0;             ///< acceleration feedforward [s]
+  double trim_V = 0.0;         ///< added to the drive command against the drive's offset [V]
+  double kv = 0.0;             ///< velocity feedback [-]
+  int kv_periods = 1;          ///< over which w is the mean measured velocity
+  double command_delay = 0.0;  ///< how late the set point reaches the loop [s]
 };
 
 /// Limits of the monitors, the same for both axes; section [safety] of the machine file.

@@ -85,7 +85,7 @@ double append_arc_pieces(const Arc& arc, double from, double to, double s0,
   int spans =
       static_cast<int>(std::clamp(std::ceil(guess), 1.0 * kFewestSpans, 1.0 * kMostArcSpans));
   spans += spans % 2;
-  while (true) {
+  while (true) {  // doubles the spans, up to kMostArcSpans
     const double error = append(arc, from, to, s0, spans, pieces);
     if (error <= kAccuracy || 2 * spans > kMostArcSpans) {
       return error;

@@ -1,9 +1,12 @@
 #include "path/joiner.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "geometry/smoothing/piecewise.hpp"
+#include "path/passage.hpp"
 
 namespace twin::path {
 namespace {
@@ -28,6 +31,12 @@ constexpr double kShareUsed = 0.975;
 /// A line between two bumps becomes part of the curve if it is shorter than this [mm]. A larger
 /// value makes fewer segments, a smaller one keeps more lines exact.
 constexpr double kMergedLine = 1.0;
+
+/// Share of an axis's jerk for the way through a bump, on an axis square to the path, and how much
+/// less of it on an axis along the path: what feedrate/limits/axis_limits.cpp has for bends. They
+/// decide which corners stay sharp, no limit.
+constexpr double kBumpShare = 0.8;
+constexpr double kBumpShareAlong = 0.34;
 
 constexpr double kNothing = 1e-9;       // a length that is none [mm]
 constexpr double kShortestBody = 1e-4;  // between two bumps, unless there is none at all [mm]
@@ -83,6 +92,7 @@ void Joiner::begin_element(Kind kind, double begin, double end) {
   under_way_.begin = under_way_.from = begin;
   under_way_.end = end;
   under_way_.tolerance = tolerance_;
+  under_way_.feedrate = feedrate_;
   under_way_.spans.restart(0);
   is_joined_ = false;
 }
@@ -153,7 +163,7 @@ void Joiner::join_to_last() {
   const bool has_jump = bump.turn.norm() > kNoJump || bump.bend.norm() > kNoJump;
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
-  if (width < 2.0 * geometry::kShortestPiece) {
+  if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin)) {
     emit_body(before_, before_.end);
     if (has_jump) {
       writer_.end_curve();
@@ -180,6 +190,40 @@ double Joiner::bump_width(const geometry::CornerBump& bump) const {
   const double left = room - width;
   const double least = std::min(kShortestBody, 0.05 * (before_.end - before_.begin));
   return left > kNothing && left < least ? width - (least - left) : width;
+}
+
+/// Whether a stop at the corner loses less time than a bump, with what the jerk of axes allows in it.
+bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
+                             const PathPoint& begin) const {
+  const Vec3 along = 0.5 * (end.tangent + begin.tangent).cwiseAbs();
+  double v = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double turn = std::abs(bump.turn[i]);
+    if (limits_.axis_jerk[i] > 0.0 && turn > kNoJump) {
+      const double share = kBumpShare - kBumpShareAlong * along[i];
+      v = std::min(v, std::cbrt(share * limits_.axis_jerk[i] * width * width / turn));
+    }
+  }
+  if (!std::isfinite(v)) {
+    return false;
+  }
+  double lost_in_bump = 0.0;
+  double lost_by_stop = 0.0;
+  const auto add_side = [&](const Element& element, const Vec3& tangent) {
+    double jerk = limits_.jerk;
+    for (int i = 0; i < 3; ++i) {
+      if (limits_.axis_jerk[i] > 0.0 && std::abs(tangent[i]) > kNoJump) {
+        jerk = std::min(jerk, limits_.axis_jerk[i] / std::abs(tangent[i]));
+      }
+    }
+    const double room = 0.5 * (element.end - element.begin);
+    const double feedrate = feedrate_within(room, element.feedrate, jerk);
+    lost_in_bump += best_passage(width, v, feedrate, jerk).loss;
+    lost_by_stop += stop_loss(feedrate, jerk);
+  };
+  add_side(before_, end.tangent);
+  add_side(under_way_, begin.tangent);
+  return lost_by_stop < lost_in_bump;
 }
 
 void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {

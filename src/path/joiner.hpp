@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/limits.hpp"
 #include "geometry/smoothing/corner_bump.hpp"
 #include "geometry/smoothing/sliding_vector.hpp"
 #include "geometry/smoothing/span_checker.hpp"
@@ -18,7 +19,9 @@ namespace twin::path {
 /// Within the bump an arc is replaced by cubic pieces (append_arc_pieces). Outside, lines and arcs
 /// are exact.
 ///
-/// A corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp.
+/// A corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp. So
+/// does one where the jerk of single axes lets a stop at the corner lose less time than the way
+/// through the bump (path/passage.hpp).
 ///
 /// Elements (lines, arcs, runs) come in order, with the length of the base path at their ends; a
 /// run comes span by span. An element is given to the writer as soon as the corner at its end is
@@ -26,10 +29,15 @@ namespace twin::path {
 /// change.
 class Joiner : public geometry::RunSink {
  public:
-  explicit Joiner(SegmentWriter& writer) : writer_(writer) {}
+  Joiner(SegmentWriter& writer, const Limits& limits) : writer_(writer), limits_(limits) {}
 
-  /// Sets the tolerance of the elements that follow [mm].
-  void set_tolerance(double tolerance) { tolerance_ = tolerance; }
+  /// Sets what is asked for on the elements that follow.
+  /// @param tolerance  [mm]
+  /// @param feedrate   [mm/s]
+  void set_demands(double tolerance, double feedrate) {
+    tolerance_ = tolerance;
+    feedrate_ = feedrate;
+  }
 
   void take_span(const geometry::SpanCubic& span, double deviation) override;
   void take_block(const Vec3& from, const Vec3& to, double begin, double end) override;
@@ -51,6 +59,7 @@ class Joiner : public geometry::RunSink {
     double end = 0.0;    // the same at its end; for a run, at the end of the known part [mm]
     double from = 0.0;   // the writer has got the part before this length [mm]
     double tolerance = 0.0;
+    double feedrate = 0.0;
     Line line;
     Arc arc;
     geometry::SlidingVector<Span> spans;
@@ -61,6 +70,8 @@ class Joiner : public geometry::RunSink {
   void end_element();
   void release_spans();
   double bump_width(const geometry::CornerBump& bump) const;
+  bool is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
+                       const PathPoint& begin) const;
   void emit_bump(const geometry::CornerBump& bump, double width);
   void emit_body(Element& element, double end);
 
@@ -69,7 +80,9 @@ class Joiner : public geometry::RunSink {
   void append_pieces(const Element& element, double begin, double end);
 
   SegmentWriter& writer_;
+  Limits limits_;
   double tolerance_ = 0.0;
+  double feedrate_ = 0.0;
   Element before_;
   Element under_way_;
   bool is_joined_ = false;  // the corner at the begin of under_way_ is rounded

@@ -23,7 +23,7 @@ SmoothBuilder::SmoothBuilder(const PathSettings& settings, const PlanningModel& 
       model_(model),
       limits_(limits),
       writer_(std::move(sink)),
-      joiner_(writer_),
+      joiner_(writer_, limits),
       run_(joiner_) {}
 
 /// What is left of the tolerance at corners, less that of the specks.
@@ -117,7 +117,7 @@ void SmoothBuilder::end_line(Following following) {
 void SmoothBuilder::emit_line(LineBlock& line) {
   if (!continues_run(line)) {
     run_.finish();
-    joiner_.set_tolerance(corner_tolerance(line.tolerance));
+    joiner_.set_demands(corner_tolerance(line.tolerance), line.demand.feedrate);
     run_.start(line.start, length_, run_tolerance(line.tolerance));
   }
   length_ += line.length;
@@ -142,9 +142,9 @@ void SmoothBuilder::end_lines() {
 
 void SmoothBuilder::push_arc(const gcode::Block& block, std::int64_t number) {
   end_lines();
-  joiner_.set_tolerance(corner_tolerance(block.tolerance));
   const Arc arc = make_arc(block.arc);
   BlockDemand demand = demand_of(block, arc.length, number);
+  joiner_.set_demands(corner_tolerance(block.tolerance), demand.feedrate);
   const double begin = length_;
   length_ += arc.length;
   demand.end = length_;

@@ -20,20 +20,25 @@ using enum QuantityKind;
 using S = Summary;
 using R = MachineResults;
 using W = RealTimeStats;
+using C = CuttingStats;
+using CR = CuttingErrors;
+using AuditPlaces = OfEachPeak<std::optional<Place>>;
+using AxisPlaces = OfEachAxisPeak<std::optional<Place>>;
 using Optional = std::optional<double>;
 
 constexpr double same(double x) { return x; }
 constexpr double us_from_s(double s) { return s * 1e6; }
 constexpr double percent(double share) { return 1e2 * share; }
 
+std::optional<Place> value_of(const std::optional<Place>& x) { return x; }
 Optional value_of(double x) { return x; }
 Optional value_of(std::int64_t x) { return static_cast<double>(x); }
 Optional value_of(const Optional& x) { return x; }
 
 /// Follows members, or places in an array, from a struct down to a number. An optional on the way
 /// that is empty gives nothing.
-template <auto first, auto... rest, class From>
-Optional follow(const From& from) {
+template <class To, auto first, auto... rest, class From>
+To follow(const From& from) {
   const auto& field = [&]() -> const auto& {
     if constexpr (std::is_integral_v<decltype(first)>) {
       return from[first];
@@ -45,21 +50,32 @@ Optional follow(const From& from) {
   if constexpr (sizeof...(rest) == 0) {
     return value_of(field);
   } else if constexpr (requires { field.has_value(); }) {
-    return field ? follow<rest...>(*field) : Optional();
+    return field ? follow<To, rest...>(*field) : To();
   } else {
-    return follow<rest...>(field);
+    return follow<To, rest...>(field);
   }
 }
 
 /// Getter of the number at the end of some members, times its unit.
 template <double (*in_unit)(double), auto... members>
 Optional get(const Summary& summary) {
-  const Optional value = follow<members...>(summary);
+  const Optional value = follow<Optional, members...>(summary);
   return value ? Optional(in_unit(*value)) : Optional();
+}
+
+/// Getter of the place at the end of some members.
+template <auto... members>
+std::optional<Place> at(const Summary& summary) {
+  return follow<std::optional<Place>, members...>(summary);
 }
 
 Optional bound_ratio(const Summary& s) {
   return s.time_bound ? Optional(s.planned_time / *s.time_bound) : Optional();
+}
+
+/// Left out where there are none.
+Optional plan_fallbacks(const Summary& s) {
+  return s.plan_fallbacks > 0 ? Optional(static_cast<double>(s.plan_fallbacks)) : Optional();
 }
 
 double at_least_one(std::int64_t count) {
@@ -120,6 +136,8 @@ constexpr auto kQuantities = std::to_array<Quantity>({
          "path length", "", "mm", 3, kPath, kMeasure, get<same, &S::path_length>},
     {"planned_time_s", "/planned_time_s",
          "planned time", "", "s", 3, kPath, kMeasure, get<same, &S::planned_time>},
+    {"plan_fallbacks", "/plan_fallbacks",
+         "plan fallbacks", "", "", 0, kPath, kCount, plan_fallbacks},
     {"time_bound_s", "/time_bound_s",
          "lower bound of the time", "", "s", 3, kPath, kMeasure, get<same, &S::time_bound>},
     {"bound_ratio", "/bound_ratio",
@@ -132,31 +150,36 @@ constexpr auto kQuantities = std::to_array<Quantity>({
 
     {"command_contour_error_max_um", "/command_contour_error_um/max",
          "contour error, command", "max", "um", 3, kErrors, kMeasure,
-         get<um_from_mm, &S::command_contour_error, &ErrorStats::max>},
+         get<um_from_mm, &S::command_contour_error, &ErrorStats::max>, nullptr,
+         at<&S::command_contour_error, &ErrorStats::at>},
     {"command_contour_error_rms_um", "/command_contour_error_um/rms",
          "contour error, command", "rms", "um", 3, kErrors, kMeasure,
          get<um_from_mm, &S::command_contour_error, &ErrorStats::rms>},
     {"contour_error_max_um", "/contour_error_um/max",
          "contour error, encoder", "max", "um", 3, kErrors, kMeasure,
-         get<um_from_mm, &S::run, &R::contour_error, &ErrorStats::max>},
+         get<um_from_mm, &S::run, &R::contour_error, &ErrorStats::max>, nullptr,
+         at<&S::run, &R::contour_error, &ErrorStats::at>},
     {"contour_error_rms_um", "/contour_error_um/rms",
          "contour error, encoder", "rms", "um", 3, kErrors, kMeasure,
          get<um_from_mm, &S::run, &R::contour_error, &ErrorStats::rms>},
     {"table_contour_error_max_um", "/table_contour_error_um/max",
          "contour error, table", "max", "um", 3, kErrors, kMeasure,
-         get<um_from_mm, &S::run, &R::table_contour_error, &ErrorStats::max>},
+         get<um_from_mm, &S::run, &R::table_contour_error, &ErrorStats::max>, nullptr,
+         at<&S::run, &R::table_contour_error, &ErrorStats::at>},
     {"table_contour_error_rms_um", "/table_contour_error_um/rms",
          "contour error, table", "rms", "um", 3, kErrors, kMeasure,
          get<um_from_mm, &S::run, &R::table_contour_error, &ErrorStats::rms>},
     {"x_tracking_error_max_um", "/tracking_error_um/x/max",
          "tracking error, x", "max", "um", 3, kErrors, kMeasure,
-         get<um_from_mm, &S::run, &R::tracking_error, 0, &ErrorStats::max>},
+         get<um_from_mm, &S::run, &R::tracking_error, 0, &ErrorStats::max>, nullptr,
+         at<&S::run, &R::tracking_error, 0, &ErrorStats::at>},
     {"x_tracking_error_rms_um", "/tracking_error_um/x/rms",
          "tracking error, x", "rms", "um", 3, kErrors, kMeasure,
          get<um_from_mm, &S::run, &R::tracking_error, 0, &ErrorStats::rms>},
     {"y_tracking_error_max_um", "/tracking_error_um/y/max",
          "tracking error, y", "max", "um", 3, kErrors, kMeasure,
-         get<um_from_mm, &S::run, &R::tracking_error, 1, &ErrorStats::max>},
+         get<um_from_mm, &S::run, &R::tracking_error, 1, &ErrorStats::max>, nullptr,
+         at<&S::run, &R::tracking_error, 1, &ErrorStats::at>},
     {"y_tracking_error_rms_um", "/tracking_error_um/y/rms",
          "tracking error, y", "rms", "um", 3, kErrors, kMeasure,
          get<um_from_mm, &S::run, &R::tracking_error, 1, &ErrorStats::rms>},
@@ -167,45 +190,96 @@ constexpr auto kQuantities = std::to_array<Quantity>({
          "feedrate fluctuation", "rms", "%", 4, kErrors, kMeasure,
          get<percent, &S::feedrate_fluctuation, &ShareStats::rms>},
 
+    {"cutting_time_s", "/cutting/time_s",
+         "cutting time", "", "s", 3, kCutting, kMeasure, get<same, &S::cutting, &C::time>},
+    {"cutting_command_contour_error_max_um", "/cutting/command_contour_error_um/max",
+         "cutting, command", "max", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::command_contour_error, &ErrorStats::max>, nullptr,
+         at<&S::cutting, &C::command_contour_error, &ErrorStats::at>},
+    {"cutting_command_contour_error_rms_um", "/cutting/command_contour_error_um/rms",
+         "cutting, command", "rms", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::command_contour_error, &ErrorStats::rms>},
+    {"cutting_contour_error_max_um", "/cutting/contour_error_um/max",
+         "cutting, encoder", "max", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::contour_error, &ErrorStats::max>, nullptr,
+         at<&S::cutting, &C::run, &CR::contour_error, &ErrorStats::at>},
+    {"cutting_contour_error_rms_um", "/cutting/contour_error_um/rms",
+         "cutting, encoder", "rms", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::contour_error, &ErrorStats::rms>},
+    {"cutting_table_contour_error_max_um", "/cutting/table_contour_error_um/max",
+         "cutting, table", "max", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::table_contour_error, &ErrorStats::max>, nullptr,
+         at<&S::cutting, &C::run, &CR::table_contour_error, &ErrorStats::at>},
+    {"cutting_table_contour_error_rms_um", "/cutting/table_contour_error_um/rms",
+         "cutting, table", "rms", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::table_contour_error, &ErrorStats::rms>},
+    {"cutting_x_tracking_error_max_um", "/cutting/tracking_error_um/x/max",
+         "cutting, tracking, x", "max", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::tracking_error, 0, &ErrorStats::max>, nullptr,
+         at<&S::cutting, &C::run, &CR::tracking_error, 0, &ErrorStats::at>},
+    {"cutting_x_tracking_error_rms_um", "/cutting/tracking_error_um/x/rms",
+         "cutting, tracking, x", "rms", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::tracking_error, 0, &ErrorStats::rms>},
+    {"cutting_y_tracking_error_max_um", "/cutting/tracking_error_um/y/max",
+         "cutting, tracking, y", "max", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::tracking_error, 1, &ErrorStats::max>, nullptr,
+         at<&S::cutting, &C::run, &CR::tracking_error, 1, &ErrorStats::at>},
+    {"cutting_y_tracking_error_rms_um", "/cutting/tracking_error_um/y/rms",
+         "cutting, tracking, y", "rms", "um", 3, kCutting, kMeasure,
+         get<um_from_mm, &S::cutting, &C::run, &CR::tracking_error, 1, &ErrorStats::rms>},
+
     {"feedrate_peak_mm_per_s", "/audit/feedrate_mm_per_s",
          "feedrate", "peak", "mm/s", 1, kPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::feedrate>, feedrate_limit},
+         get<same, &S::audit, &AuditPeaks::feedrate>, feedrate_limit,
+         at<&S::audit_at, &AuditPlaces::feedrate>},
     {"tangential_acceleration_peak_mm_per_s2", "/audit/tangential_acceleration_mm_per_s2",
          "tangential acceleration", "peak", "mm/s^2", 1, kPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::tangential_acceleration>, acceleration_limit},
+         get<same, &S::audit, &AuditPeaks::tangential_acceleration>, acceleration_limit,
+         at<&S::audit_at, &AuditPlaces::tangential_acceleration>},
     {"tangential_jerk_peak_mm_per_s3", "/audit/tangential_jerk_mm_per_s3",
          "tangential jerk", "peak", "mm/s^3", 1, kPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::tangential_jerk>, jerk_limit},
+         get<same, &S::audit, &AuditPeaks::tangential_jerk>, jerk_limit,
+         at<&S::audit_at, &AuditPlaces::tangential_jerk>},
     {"normal_acceleration_peak_mm_per_s2", "/audit/normal_acceleration_mm_per_s2",
          "normal acceleration", "peak", "mm/s^2", 1, kPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::normal_acceleration>, acceleration_limit},
+         get<same, &S::audit, &AuditPeaks::normal_acceleration>, acceleration_limit,
+         at<&S::audit_at, &AuditPlaces::normal_acceleration>},
     {"x_velocity_peak_mm_per_s", "/audit/axis/x/velocity_mm_per_s",
          "velocity, x", "peak", "mm/s", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 0, &AxisPeaks::velocity>},
+         get<same, &S::audit, &AuditPeaks::axis, 0, &AxisPeaks::velocity>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 0, &AxisPlaces::velocity>},
     {"x_acceleration_peak_mm_per_s2", "/audit/axis/x/acceleration_mm_per_s2",
          "acceleration, x", "peak", "mm/s^2", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 0, &AxisPeaks::acceleration>},
+         get<same, &S::audit, &AuditPeaks::axis, 0, &AxisPeaks::acceleration>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 0, &AxisPlaces::acceleration>},
     {"x_jerk_peak_mm_per_s3", "/audit/axis/x/jerk_mm_per_s3",
          "jerk, x", "peak", "mm/s^3", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 0, &AxisPeaks::jerk>},
+         get<same, &S::audit, &AuditPeaks::axis, 0, &AxisPeaks::jerk>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 0, &AxisPlaces::jerk>},
     {"y_velocity_peak_mm_per_s", "/audit/axis/y/velocity_mm_per_s",
          "velocity, y", "peak", "mm/s", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 1, &AxisPeaks::velocity>},
+         get<same, &S::audit, &AuditPeaks::axis, 1, &AxisPeaks::velocity>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 1, &AxisPlaces::velocity>},
     {"y_acceleration_peak_mm_per_s2", "/audit/axis/y/acceleration_mm_per_s2",
          "acceleration, y", "peak", "mm/s^2", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 1, &AxisPeaks::acceleration>},
+         get<same, &S::audit, &AuditPeaks::axis, 1, &AxisPeaks::acceleration>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 1, &AxisPlaces::acceleration>},
     {"y_jerk_peak_mm_per_s3", "/audit/axis/y/jerk_mm_per_s3",
          "jerk, y", "peak", "mm/s^3", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 1, &AxisPeaks::jerk>},
+         get<same, &S::audit, &AuditPeaks::axis, 1, &AxisPeaks::jerk>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 1, &AxisPlaces::jerk>},
     {"z_velocity_peak_mm_per_s", "/audit/axis/z/velocity_mm_per_s",
          "velocity, z", "peak", "mm/s", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 2, &AxisPeaks::velocity>},
+         get<same, &S::audit, &AuditPeaks::axis, 2, &AxisPeaks::velocity>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 2, &AxisPlaces::velocity>},
     {"z_acceleration_peak_mm_per_s2", "/audit/axis/z/acceleration_mm_per_s2",
          "acceleration, z", "peak", "mm/s^2", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 2, &AxisPeaks::acceleration>},
+         get<same, &S::audit, &AuditPeaks::axis, 2, &AxisPeaks::acceleration>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 2, &AxisPlaces::acceleration>},
     {"z_jerk_peak_mm_per_s3", "/audit/axis/z/jerk_mm_per_s3",
          "jerk, z", "peak", "mm/s^3", 1, kAxisPeaks, kMeasure,
-         get<same, &S::audit, &AuditPeaks::axis, 2, &AxisPeaks::jerk>},
+         get<same, &S::audit, &AuditPeaks::axis, 2, &AxisPeaks::jerk>, nullptr,
+         at<&S::audit_at, &AuditPlaces::axis, 2, &AxisPlaces::jerk>},
 
     {"cycle_time_p50_us", "/cycle_time_us/p50",
          "cycle time", "median", "us", 2, kCycle, kMeasure,

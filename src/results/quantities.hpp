@@ -14,6 +14,7 @@ namespace twin::results {
 enum class Group {
   kRun,        ///< the interpolation period
   kPath,       ///< blocks, segments, times
+  kCutting,    ///< errors of the cutting motion alone
   kErrors,     ///< deviations from the programmed path and from the commanded feedrate
   kPeaks,      ///< of the motion along the path, beside their limits
   kAxisPeaks,  ///< of the motion of each axis
@@ -39,6 +40,8 @@ struct Quantity {
   std::optional<double> (*get)(const Summary& summary);
   /// The limit that it should keep, in that unit; null where there is none.
   double (*limit)(const Limits& limits) = nullptr;
+  /// Where a largest value was, or nothing where the run has none; null for other quantities.
+  std::optional<Place> (*place)(const Summary& summary) = nullptr;
 
   /// "contour error, encoder, max"
   std::string name() const;

@@ -169,7 +169,10 @@ bool Cycle::is_safe() noexcept {
 bool Cycle::write() noexcept {
   const hal::MachineInfo& info = machine_->info();
   if (info.has_truth && !info.follows_reference) {
-    table_ = true_position();
+    const hal::Truth truth = machine_->truth();
+    table_ = {truth.table_position[hal::kX], truth.table_position[hal::kY]};
+    torque_ = {truth.motor_torque[hal::kX], truth.motor_torque[hal::kY]};
+    friction_ = {truth.friction_force[hal::kX], truth.friction_force[hal::kY]};
   }
   if (machine_->write(outputs_) != hal::Status::kOk) {
     return false;
@@ -238,6 +241,8 @@ void Cycle::fill(results::Sample& sample) const noexcept {
   sample.encoder = measured_;
   sample.table = table_;
   sample.volts = {outputs_.volts[0], outputs_.volts[1]};
+  sample.torque = torque_;
+  sample.friction = friction_;
   sample.cycle_time = prepare_time_ + servo_time_;
 }
 

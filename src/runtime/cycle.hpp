@@ -110,6 +110,8 @@ class Cycle {
   hal::Outputs outputs_{};
   motion::SetPoint set_point_{};
   Vec2 measured_ = Vec2::Zero();
+  Vec2 torque_ = Vec2::Zero();    // of the motors, if the machine tells it [N.m]
+  Vec2 friction_ = Vec2::Zero();  // of the slides, if the machine tells it [N]
   Vec2 table_ = Vec2::Zero();
   double interval_ = 0.0;      // [s]
   double prepare_time_ = 0.0;  // [s]

@@ -44,6 +44,7 @@ class Motion {
   bool rest_one_period();
   bool exchange(results::Sample& sample);
   void guard_supply();
+  double next_period(const feedrate::PathMotion& now) const;
   void record(const results::Sample& sample);
   void pass_over_missed();
   std::optional<MotionEnd> pass_idle();
@@ -151,14 +152,32 @@ void Motion::guard_supply() {
     return;
   }
   const double reach = supply_.reach(interpolator_.latest_plan());
-  if (!std::isfinite(reach)) {
+  if (!std::isfinite(reach) || !interpolator_.has_started()) {
     return;
   }
+  const feedrate::PathMotion now = interpolator_.motion();
+  if (now.v == 0.0 && supply_.is_primed()) {
+    return;  // no more path will be known before it moves
+  }
   const double known = reach - interpolator_.distance();
-  const double next_period = 2.0 * options_.limits.feedrate * options_.period;
-  if (interpolator_.braking_distance(ramp_) + next_period > known) {
+  if (interpolator_.braking_distance(ramp_) + next_period(now) > known) {
     interpolator_.brake(ramp_);
   }
+}
+
+/// How much more path braking can need a period later: with +J until then, the way of this period
+/// and what the braking distance grows by, twice, since limits of single axes may be softer than
+/// `ramp_`. At most what two periods of the largest feedrate are.
+double Motion::next_period(const feedrate::PathMotion& now) const {
+  const double t = options_.period;
+  const feedrate::PathMotion from{0.0, now.v, now.a};
+  const double rise =
+      std::min(std::max(now.a, 0.0) * t + 0.5 * ramp_.jerk * t * t, ramp_.acceleration * t);
+  const feedrate::PathMotion later{
+      0.0, now.v + rise, std::min(std::max(now.a, 0.0) + ramp_.jerk * t, ramp_.acceleration)};
+  const double grows =
+      feedrate::make_brake(later, ramp_).distance - feedrate::make_brake(from, ramp_).distance;
+  return std::min(2.0 * (later.v * t + grows), 2.0 * options_.limits.feedrate * t);
 }
 
 /// Hands a sample to the recorder. A full queue ends recording and motion where nothing waits.

@@ -96,6 +96,7 @@ void put_into(results::Summary& summary, const PlanFigures& figures, Planner pla
           : 1.0;
   summary.path_length = figures.path_length;
   summary.planned_time = figures.time;
+  summary.plan_fallbacks = figures.fallbacks;
 }
 
 }  // namespace twin::runtime

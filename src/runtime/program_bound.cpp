@@ -5,13 +5,14 @@
 #include "core/stop_wish.hpp"
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
+#include "runtime/run_options.hpp"
 
 namespace twin::runtime {
 
 Expected<double> time_bound(const gcode::ProgramText& program, const config::MachineFile& machine,
                             const std::optional<double>& feedrate, const std::atomic<bool>* stop,
                             feedrate::TimeBound::Profile profile) {
-  gcode::Reader reader(program, {.feedrate = feedrate});
+  gcode::Reader reader(program, reader_options(machine, feedrate));
   feedrate::TimeBound bound(machine.limits, machine.planning, machine.path, machine.period,
                             std::move(profile));
   const auto wish = [stop] {

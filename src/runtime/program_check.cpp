@@ -59,7 +59,8 @@ void include_block(const gcode::Block& block, Vec3& low, Vec3& high) {
   const geometry::Arc& arc = block.arc;
   for (int axis = 0; axis < 3; ++axis) {
     const double first = std::atan2(arc.e2[axis], arc.e1[axis]);
-    for (int half_turn = -1; half_turn <= 3; ++half_turn) {
+    const int last = 3 + static_cast<int>(arc.sweep / std::numbers::pi);
+    for (int half_turn = -1; half_turn <= last; ++half_turn) {
       const double angle = first + half_turn * std::numbers::pi;
       if (angle > 0.0 && angle < arc.sweep) {
         include(results::point_at(block, angle / arc.sweep), low, high);
@@ -85,18 +86,27 @@ Expected<void> check_rest(gcode::Reader& reader, TravelCheck& check,
 
 TravelCheck::TravelCheck(std::string file, const Vec3& start, const Limits& limits)
     : file_(std::move(file)), limits_(limits) {
-  figures_.box_min = figures_.box_max = start;
+  figures_.box_min = figures_.box_max = figures_.end = start;
 }
 
 Expected<void> TravelCheck::add(const gcode::Block& block) {
   const Vec3& low = figures_.box_min;
   const Vec3& high = figures_.box_max;
   include_block(block, figures_.box_min, figures_.box_max);
+  figures_.end = block.end;
+  if (block.motion != gcode::Motion::kDwell) {
+    ++figures_.blocks;
+    figures_.length += results::block_length(block, results::View::kSpace);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const bool is_low = low[axis] < limits_.travel_min[axis] - kRounding;
-    if (is_low || high[axis] > limits_.travel_max[axis] + kRounding) {
-      const double limit = is_low ? limits_.travel_min[axis] : limits_.travel_max[axis];
-      const double place = is_low ? low[axis] : high[axis];
+    const bool is_high = high[axis] > limits_.travel_max[axis] + kRounding;
+    auto& told = is_told_[static_cast<std::size_t>(axis)];
+    if ((is_low && !told[0]) || (is_high && !told[1])) {
+      const bool is_at_low = is_low && !told[0];
+      told[is_at_low ? 0 : 1] = true;
+      const double limit = is_at_low ? limits_.travel_min[axis] : limits_.travel_max[axis];
+      const double place = is_at_low ? low[axis] : high[axis];
       return tl::unexpected(
           Error{.code = ErrorCode::kProgram,
                 .message = fmt::format(
@@ -105,10 +115,6 @@ Expected<void> TravelCheck::add(const gcode::Block& block) {
                 .file = file_,
                 .line = static_cast<int>(block.line)});
     }
-  }
-  if (block.motion != gcode::Motion::kDwell) {
-    ++figures_.blocks;
-    figures_.length += results::block_length(block, results::View::kSpace);
   }
   return {};
 }
@@ -121,6 +127,7 @@ Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
   TWIN_CHECK(check_rest(reader, check, stop));
   ProgramFigures figures = check.figures();
   figures.lines = reader.line();
+  figures.notes = reader.notes().all();
   return figures;
 }
 
@@ -145,6 +152,7 @@ Expected<Estimate> estimate_program(const gcode::ProgramText& program,
   TWIN_CHECK(check_wish(stop, kNothingMoved));
   estimate.program = check.figures();
   estimate.program.lines = reader.line();
+  estimate.program.notes = reader.notes().all();
   return estimate;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "gcode/notes.hpp"
 #include "gcode/program_text.hpp"
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
@@ -16,11 +19,13 @@ namespace twin::runtime {
 
 /// What reading a whole program says before anything moves.
 struct ProgramFigures {
-  std::int64_t blocks = 0;      ///< blocks that move
-  std::int64_t lines = 0;       ///< lines of text
-  double length = 0.0;          ///< programmed length [mm]
-  Vec3 box_min = Vec3::Zero();  ///< lower corner of the space it moves in, start included [mm]
-  Vec3 box_max = Vec3::Zero();  ///< upper corner [mm]
+  std::int64_t blocks = 0;         ///< blocks that move
+  std::int64_t lines = 0;          ///< lines of text
+  double length = 0.0;             ///< programmed length [mm]
+  Vec3 end = Vec3::Zero();         ///< end of the last block, or the start [mm]
+  Vec3 box_min = Vec3::Zero();     ///< lower corner of the space it moves in, start included [mm]
+  Vec3 box_max = Vec3::Zero();     ///< upper corner [mm]
+  std::vector<gcode::Note> notes;  ///< on the program
 };
 
 /// Holds the blocks of a program against the machine's travel, one after the other.
@@ -30,7 +35,8 @@ class TravelCheck {
   /// @param start  position before the first block [mm]
   TravelCheck(std::string file, const Vec3& start, const Limits& limits);
 
-  /// @returns an error if the block leaves the travel: axis, place, limit, line
+  /// @returns an error if the block leaves the travel: axis, place, limit, line. The same end of an
+  /// axis is told once.
   Expected<void> add(const gcode::Block& block);
   /// Of the blocks so far; the lines of text are left to the caller.
   const ProgramFigures& figures() const noexcept { return figures_; }
@@ -39,6 +45,7 @@ class TravelCheck {
   std::string file_;
   Limits limits_;
   ProgramFigures figures_;
+  std::array<std::array<bool, 2>, 3> is_told_{};  // ends of the axes
 };
 
 /// Reads a program to its end and holds it against the machine's travel.

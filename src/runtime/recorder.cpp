@@ -1,5 +1,6 @@
 #include "runtime/recorder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <system_error>
 #include <utility>
@@ -18,22 +19,28 @@ Expected<Recorder> Recorder::create(const Options& options, BlockSource blocks) 
 Recorder::Recorder(const Options& options, BlockSource blocks)
     : options_(options),
       blocks_(std::move(blocks)),
-      layout_(options.has_machine ? results::Layout::kRun : results::Layout::kPlan),
+      columns_(!options.columns.empty()
+                   ? options.columns
+                   : results::columns_of(options.has_machine ? results::Layout::kRun
+                                                             : results::Layout::kPlan)),
       in_space_(results::View::kSpace),
       along_z_(results::View::kAlongZ),
       fluctuation_(options.period),
-      audit_(options.period, options.limits) {}
+      audit_(options.period, options.limits) {
+  results::for_each_peak([](std::int64_t& noted) { noted = -1; }, noted_);
+}
 
 /// Opens the files and begins the trace in every sink.
 Expected<void> Recorder::begin() {
   std::vector<TraceSink*> sinks;
-  if (!options_.directory.empty()) {
+  const bool has_files = !options_.directory.empty() && options_.has_trace;
+  if (has_files) {
     csv_ = std::make_unique<results::CsvTrace>(options_.directory, options_.durability);
     sinks.push_back(csv_.get());
   }
   sinks.insert(sinks.end(), options_.sinks.begin(), options_.sinks.end());
-  TWIN_CHECK(sinks_.begin(sinks, results::trace_header(layout_, options_.period)));
-  if (!options_.directory.empty()) {
+  TWIN_CHECK(sinks_.begin(sinks, results::trace_header(columns_, options_.period)));
+  if (has_files) {
     TWIN_TRY(limit_, results::LimitWriter::create(options_.directory / "plots"));
   }
   return {};
@@ -51,6 +58,8 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
       break;
     }
     in_space_.add(*next);
+    largest_feedrate_ = std::max(largest_feedrate_, next->feedrate);
+    rapids_.push_back(next->motion == gcode::Motion::kRapid);
     if (options_.has_machine) {
       along_z_.add(*next);
     }
@@ -58,32 +67,104 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
   return {};
 }
 
-Expected<void> Recorder::record(const results::Sample& sample) {
-  TWIN_CHECK(read_ahead(sample.block));
+/// Whether a block is a rapid. Numbers must not fall.
+bool Recorder::is_rapid(std::int64_t block) {
+  while (first_rapid_ < block && rapids_.size() > 1) {
+    rapids_.pop_front();
+    ++first_rapid_;
+  }
+  return !rapids_.empty() && rapids_.front();
+}
+
+/// An error with the sign of the side of the path on which the position is.
+///
+/// @param from_path  position less nearest point of the path, seen along Z [mm]
+double Recorder::signed_error(double size, const Vec2& from_path) const noexcept {
+  const double side = direction_.x() * from_path.y() - direction_.y() * from_path.x();
+  return side < 0.0 ? -size : size;
+}
+
+/// Errors of the next sample, whose block the trackers know.
+results::SampleErrors Recorder::errors_of(const results::Sample& sample,
+                                          results::Deviations& deviations) {
+  const auto measure = [&](const results::ContourTracker& tracker, const Vec3& position,
+                           double& with_sign) {
+    const results::NearestPoint nearest = tracker.nearest(position);
+    with_sign = signed_error(nearest.distance, (position - nearest.point).head<2>());
+    return nearest.distance;
+  };
+  results::SampleErrors errors;
   in_space_.follow(sample.block, sample.command);
-  command_error_.add(in_space_.nearest(sample.command).distance);
-  fluctuation_.add(sample.command, sample.feedrate);
-  audit_.add(sample.command);
-  double contour_error = 0.0;
+  errors.command = measure(in_space_, sample.command, deviations.signed_command_error);
   if (options_.has_machine) {
     along_z_.follow(sample.block, sample.command);
-    contour_error = along_z_.nearest({sample.encoder.x(), sample.encoder.y(), 0.0}).distance;
-    contour_error_.add(contour_error);
-    table_error_.add(along_z_.nearest({sample.table.x(), sample.table.y(), 0.0}).distance);
+    errors.encoder = measure(along_z_, {sample.encoder.x(), sample.encoder.y(), 0.0},
+                             deviations.signed_contour_error);
+    errors.table =
+        measure(along_z_, {sample.table.x(), sample.table.y(), 0.0}, deviations.signed_table_error);
+    deviations.contour_error = errors.encoder;
     for (Eigen::Index i = 0; i < 2; ++i) {
-      tracking_error_[static_cast<std::size_t>(i)].add(
-          std::abs(sample.command[i] - sample.encoder[i]));
+      errors.tracking[static_cast<std::size_t>(i)] =
+          std::abs(sample.command[i] - sample.encoder[i]);
     }
-    if (!sample.is_passed_over) {
-      cycle_time_.add(sample.cycle_time);
+  }
+  return errors;
+}
+
+/// Takes the set point to the audit, and keeps the places of new peaks.
+void Recorder::audit(const results::Sample& sample) {
+  recent_[static_cast<std::size_t>(samples_) % recent_.size()] = {sample.t, sample.command,
+                                                                  sample.line, sample.segment};
+  audit_.add(sample.command);
+  note_peaks();
+}
+
+void Recorder::note_peaks() {
+  static_assert(results::LimitAudit::kOldest < 64);
+  results::for_each_peak(
+      [this](const std::int64_t& where, std::int64_t& noted, std::optional<results::Place>& place) {
+        if (where != noted) {
+          noted = where;
+          const std::int64_t last =
+              std::clamp<std::int64_t>(where, 0, std::max<std::int64_t>(samples_, 0));
+          place = recent_[static_cast<std::size_t>(last) % recent_.size()];
+        }
+      },
+      audit_.where(), noted_, peaks_at_);
+}
+
+Expected<void> Recorder::record(const results::Sample& sample) {
+  TWIN_CHECK(read_ahead(sample.block));
+  if (samples_ > 0) {
+    const Vec3 way = sample.command - last_.command;
+    path_length_ += way.norm();
+    if (const double length = way.head<2>().norm(); length > 0.0) {
+      direction_ = way.head<2>() / length;
     }
-    if (options_.is_wall_clock && !sample.is_passed_over) {
+  }
+  results::Deviations deviations;
+  deviations.path_length = path_length_;
+  deviations.is_rapid = is_rapid(sample.block);
+  const results::SampleErrors errors = errors_of(sample, deviations);
+  const results::Place place{sample.t, sample.command, sample.line, sample.segment};
+  all_.add(errors, place);
+  if (!deviations.is_rapid) {
+    no_rapids_.add(errors, place);
+    if (sample.command.z() <= results::kPenUp) {
+      pen_down_.add(errors, place);
+    }
+  }
+  fluctuation_.add(sample.command, sample.feedrate);
+  audit(sample);
+  if (options_.has_machine && !sample.is_passed_over) {
+    cycle_time_.add(sample.cycle_time);
+    if (options_.is_wall_clock) {
       timing_.add(sample);
     }
   }
   ++samples_;
   last_ = sample;
-  results::append_row(sample, contour_error, layout_, rows_);
+  results::append_row(sample, deviations, columns_, rows_);
   return limit_ ? limit_->write(sample.t, sample.feedrate_limit) : Expected<void>{};
 }
 
@@ -96,21 +177,43 @@ Expected<void> Recorder::flush() {
   return taken;
 }
 
+/// Figures of the cutting motion, if there was any.
+std::optional<results::CuttingStats> Recorder::cutting() const {
+  const results::MotionFigures& figures = pen_down_.command.count() > 0 ? pen_down_ : no_rapids_;
+  if (figures.command.count() == 0) {
+    return std::nullopt;
+  }
+  results::CuttingStats cutting;
+  cutting.time = static_cast<double>(figures.command.count()) * options_.period;
+  cutting.command_contour_error = figures.command.stats();
+  if (options_.has_machine) {
+    cutting.run =
+        results::CuttingErrors{figures.encoder.stats(),
+                               figures.table.stats(),
+                               {figures.tracking[0].stats(), figures.tracking[1].stats()}};
+  }
+  return cutting;
+}
+
 void Recorder::summarise(results::Summary& summary) {
-  const auto figures = [](const results::Running& error) {
-    return results::ErrorStats{error.max(), error.rms()};
-  };
-  summary.command_contour_error = figures(command_error_);
+  summary.command_contour_error = all_.command.stats();
   summary.feedrate_fluctuation = {fluctuation_.shares().max(), fluctuation_.shares().rms()};
   summary.audit = audit_.finish();
+  --samples_;  // a place beyond the last set point is the last set point's
+  note_peaks();
+  ++samples_;
+  if (samples_ > 0) {
+    summary.audit_at = peaks_at_;
+  }
+  summary.cutting = cutting();
   if (!options_.has_machine) {
     return;
   }
   results::MachineResults run;
   run.machining_time = last_.t;
-  run.contour_error = figures(contour_error_);
-  run.table_contour_error = figures(table_error_);
-  run.tracking_error = {figures(tracking_error_[0]), figures(tracking_error_[1])};
+  run.contour_error = all_.encoder.stats();
+  run.table_contour_error = all_.table.stats();
+  run.tracking_error = {all_.tracking[0].stats(), all_.tracking[1].stats()};
   run.cycle_time = {cycle_time_.quantile(0.5), cycle_time_.quantile(0.99), cycle_time_.max()};
   if (options_.is_wall_clock) {
     run.realtime = timing_.figures();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,10 +12,10 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "results/metrics/contour_tracker.hpp"
+#include "results/metrics/error_figures.hpp"
 #include "results/metrics/feedrate_fluctuation.hpp"
 #include "results/metrics/limit_audit.hpp"
 #include "results/metrics/log_histogram.hpp"
-#include "results/metrics/running.hpp"
 #include "results/metrics/summary.hpp"
 #include "results/trace/columns.hpp"
 #include "results/trace/csv_trace.hpp"
@@ -33,7 +35,9 @@ class Recorder {
  public:
   struct Options {
     std::filesystem::path directory;  ///< of the results, which exists; empty: no file is written
+    bool has_trace = true;            ///< whether trace.csv is one of them
     std::vector<TraceSink*> sinks;    ///< get the rows besides trace.csv
+    results::ColumnChoice columns;    ///< of the trace; empty: those of its layout
     Limits limits;
     double period = 0.001;                        ///< [s]
     bool has_machine = true;                      ///< else only set points are recorded
@@ -57,20 +61,34 @@ class Recorder {
   void abandon() noexcept;
 
   std::int64_t samples() const noexcept { return samples_; }
+  /// Largest programmed feedrate of the blocks so far [mm/s].
+  double largest_feedrate() const noexcept { return largest_feedrate_; }
+  /// Way of the set points so far [mm].
+  double path_length() const noexcept { return path_length_; }
   const results::Sample& last() const noexcept { return last_; }
 
  private:
   Recorder(const Options& options, BlockSource blocks);
 
+  using PeakPlaces = results::OfEachPeak<std::optional<results::Place>>;
+
   Expected<void> begin();
   Expected<void> commit_timing() const;
 
   Expected<void> read_ahead(std::int64_t block);
+  bool is_rapid(std::int64_t block);
+  double signed_error(double size, const Vec2& from_path) const noexcept;
+  results::SampleErrors errors_of(const results::Sample& sample, results::Deviations& deviations);
+  void audit(const results::Sample& sample);
+  void note_peaks();
+  std::optional<results::CuttingStats> cutting() const;
 
   Options options_;
   BlockSource blocks_;
   bool program_ended_ = false;
-  results::Layout layout_;
+  results::ColumnChoice columns_;
+  std::deque<bool> rapids_;       // whether each block is one, from first_rapid_ on
+  std::int64_t first_rapid_ = 0;  // number of the block rapids_.front()
   std::unique_ptr<results::CsvTrace> csv_;
   TraceSinks sinks_;
   std::vector<double> rows_;  // not handed to the sinks yet (rows x columns)
@@ -79,10 +97,15 @@ class Recorder {
   results::ContourTracker along_z_;
   results::FeedrateFluctuation fluctuation_;
   results::LimitAudit audit_;
-  results::Running command_error_;
-  results::Running contour_error_;
-  results::Running table_error_;
-  std::array<results::Running, 2> tracking_error_;
+  std::array<results::Place, 64> recent_{};  // of the set points, by their number modulo 64
+  results::OfEachPeak<std::int64_t> noted_;  // peaks whose places are in peaks_at_
+  PeakPlaces peaks_at_;
+  results::MotionFigures all_;
+  results::MotionFigures no_rapids_;  // without rapids
+  results::MotionFigures pen_down_;   // without rapids and with the pen down
+  Vec2 direction_ = Vec2::UnitX();    // of the motion of the set point, seen along Z
+  double largest_feedrate_ = 0.0;     // programmed [mm/s]
+  double path_length_ = 0.0;          // way of the set points [mm]
   results::LogHistogram cycle_time_;
   CycleTiming timing_;
   std::int64_t samples_ = 0;

@@ -10,10 +10,12 @@
 #include <thread>
 #include <utility>
 
+#include "config/loop_margins.hpp"
 #include "config/machine_file.hpp"
 #include "core/atomic_file.hpp"
 #include "core/must_finish.hpp"
 #include "core/this_program.hpp"
+#include "core/units.hpp"
 #include "hal/active_machine.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/realtime_thread.hpp"
@@ -93,7 +95,8 @@ class Run {
   void run_threads();
   std::optional<Error> failure() const;
   void report_progress();
-  results::Summary summarise(double wall_time);
+  results::Summary summarise(double wall_time, const std::optional<Error>& failure);
+  void summarise_early_end(results::Summary& summary, const Error& failure);
 
   const RunRequest& request_;
   const Outlook& outlook_;
@@ -203,10 +206,24 @@ std::optional<Error> Run::failure() const {
       return error;
     }
   }
-  return describe_end(motion_, recorder_.last(), request_.hal);
+  const bool has_own_servo = request_.servo != nullptr;
+  return describe_end(motion_, recorder_.last(), request_.hal,
+                      motion_.trip && !has_own_servo
+                          ? advice_on_loop(*motion_.trip, request_.machine)
+                          : std::string());
 }
 
-results::Summary Run::summarise(double wall_time) {
+/// What was done where the run has ended early.
+void Run::summarise_early_end(results::Summary& summary, const Error& failure) {
+  summary.early_end = results::EarlyEnd{failure.message, std::nullopt};
+  summary.path_length = recorder_.path_length();
+  if (recorder_.samples() > 0) {
+    const results::Sample& last = recorder_.last();
+    summary.early_end->at = results::Place{last.t, last.command, last.line, last.segment};
+  }
+}
+
+results::Summary Run::summarise(double wall_time, const std::optional<Error>& failure) {
   const config::MachineFile& machine = request_.machine;
   const PlanFigures figures = planner_.figures();
   results::Summary summary;
@@ -235,9 +252,25 @@ results::Summary Run::summarise(double wall_time) {
         "back to its start",
         figures.blocks, summary.program));
   }
+  if (const double largest = recorder_.largest_feedrate(); largest > machine.limits.feedrate) {
+    summary.notes.push_back(fmt::format("F{:g} mm/min is cut to limits.feedrate_mm_per_min, {:g}",
+                                        units::mm_per_min_from_mm_per_s(largest),
+                                        units::mm_per_min_from_mm_per_s(machine.limits.feedrate)));
+  }
   summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
+  if (failure) {
+    summarise_early_end(summary, *failure);
+  }
   if (summary.run) {
+    if (request_.servo == nullptr && !request_.hal->info().follows_reference) {
+      summary.loops.emplace();
+      for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
+        const config::LoopMargins loop =
+            config::loop_margins(machine.servo[i], machine.table.axis[i], machine.period);
+        (*summary.loops)[i] = {loop.bandwidth_Hz, loop.phase_margin_deg, loop.gain_margin};
+      }
+    }
     summary.run->real_time_factor = summary.run->machining_time / wall_time;
     if (summary.run->realtime) {
       summary.run->realtime->late_periods = motion_.late_periods;
@@ -272,7 +305,7 @@ Expected<RunResult> Run::execute() {
   result.trip = motion_.trip;
   result.met_at = motion_.met_at;
   result.rest_at = motion_.rest_at;
-  result.summary = summarise(wall_time);
+  result.summary = summarise(wall_time, result.failure);
   if (!result.failure) {
     if (auto saved = recorder_.commit(); !saved) {
       result.failure = std::move(saved).error();
@@ -284,14 +317,21 @@ Expected<RunResult> Run::execute() {
   return result;
 }
 
+void tell_notes(const RunRequest& request, const ProgramFigures& program) {
+  if (request.noted && !program.notes.empty()) {
+    request.noted(program.notes);
+  }
+}
+
 /// Reads the whole program before anything moves, and plans it where the plan is of use: where
 /// nothing can change it on the way and it is not too long, the run follows it, so it is made once;
-/// where an operator or a schedule may change it, for the cycle time.
+/// where an operator or a schedule may change it, for the machining time.
 Expected<Outlook> look_at(const RunRequest& request) {
   const gcode::ReaderOptions options = reader_options(request);
   if (request.hal == nullptr && request.overrides.empty()) {
     TWIN_TRY(const ProgramFigures program,
              check_program(request.program, options, request.machine.limits, request.stop));
+    tell_notes(request, program);
     return Outlook{.program = program, .plan = std::nullopt, .segments = {}};
   }
   Outlook outlook{.program = {}, .plan = std::nullopt, .segments = {}};
@@ -305,6 +345,7 @@ Expected<Outlook> look_at(const RunRequest& request) {
                               return outlook.segments.size() <= kMostKept;
                             }));
   outlook.program = estimate.program;
+  tell_notes(request, estimate.program);
   outlook.is_kept = keeps && estimate.is_whole;
   if (!estimate.is_whole) {
     outlook.segments.clear();

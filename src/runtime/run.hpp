@@ -12,10 +12,12 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "gcode/notes.hpp"
 #include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
 #include "motion/safety/trip.hpp"
 #include "results/metrics/summary.hpp"
+#include "results/trace/columns.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
@@ -36,7 +38,9 @@ struct RunTask {
 /// Where the results of a run go.
 struct RunOutput {
   std::filesystem::path directory;              ///< made when missing; empty: no file is written
+  bool has_trace = true;                        ///< whether the rows go to trace.csv
   std::vector<TraceSink*> sinks;                ///< get the rows of the trace, besides the files
+  results::ColumnChoice columns;                ///< of the trace; empty: the default ones
   Durability durability = Durability::kSynced;  ///< of the trace
   std::string command;  ///< command line or the caller's own words, for the summary
 };
@@ -52,8 +56,10 @@ struct RunConduct {
 struct RunListeners {
   const std::atomic<bool>* stop = nullptr;  ///< set to brake on the path and end
   std::function<void(double)> progress;     ///< gets the done share, 0 to 1
-  std::function<void(double)> estimated;    ///< gets the cycle time before anything moves [s]
-  OperatorPanel* panel = nullptr;           ///< for override and hold by an operator
+  std::function<void(double)> estimated;    ///< gets the machining time before anything moves [s]
+  /// Gets the notes on the program before anything moves, if there are any.
+  std::function<void(const std::vector<gcode::Note>&)> noted;
+  OperatorPanel* panel = nullptr;  ///< for override and hold by an operator
 };
 
 /// Functions by which tests disturb a run, for instance to delay a thread. Empty ones do nothing.

@@ -7,8 +7,26 @@ constexpr double kRestAfter = 0.1;  // at the path's end, before the machine is 
 
 }  // namespace
 
+gcode::ReaderOptions reader_options(const config::MachineFile& machine,
+                                    const std::optional<double>& feedrate) {
+  const ProgramSettings& program = machine.program;
+  gcode::ReaderOptions options;
+  options.feedrate = feedrate;
+  options.block_delete = program.skips_deleted;
+  options.dialect = program.dialect;
+  for (const char letter : program.ignored_axes) {
+    options.ignored_axes.push_back(letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : letter);
+  }
+  options.workpiece = program.workpiece;
+  options.tool_table = program.tool_table;
+  options.default_feedrate = program.default_feedrate;
+  options.largest_feedrate = machine.limits.feedrate;
+  options.most_lines = program.most_lines;
+  return options;
+}
+
 gcode::ReaderOptions reader_options(const RunRequest& request) {
-  return {.feedrate = request.feedrate};
+  return reader_options(request.machine, request.feedrate);
 }
 
 FeedControl::Options feed_options(const RunRequest& request, double first_percent) {
@@ -39,7 +57,9 @@ WallClockPace::Options wall_clock_options(const RunRequest& request) {
 
 Recorder::Options recorder_options(const RunRequest& request) {
   return {.directory = request.directory,
+          .has_trace = request.has_trace,
           .sinks = request.sinks,
+          .columns = request.columns,
           .limits = request.machine.limits,
           .period = request.machine.period,
           .has_machine = request.hal != nullptr,

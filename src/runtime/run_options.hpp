@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "config/machine_file.hpp"
 #include "gcode/reader.hpp"
 #include "runtime/feed_control.hpp"
 #include "runtime/motion.hpp"
@@ -8,6 +11,12 @@
 #include "runtime/run.hpp"
 
 namespace twin::runtime {
+
+/// How programs are read for a machine.
+///
+/// @param feedrate  in place of the F words, if any [mm/s]
+gcode::ReaderOptions reader_options(const config::MachineFile& machine,
+                                    const std::optional<double>& feedrate);
 
 /// What the parts of a run are told of its request.
 gcode::ReaderOptions reader_options(const RunRequest& request);

@@ -1,5 +1,6 @@
 #include "runtime/run_planning.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/run_errors.hpp"
@@ -8,8 +9,17 @@
 namespace twin::runtime {
 namespace {
 
-std::size_t look_ahead_of(const RunRequest& request) {
-  return static_cast<std::size_t>(request.machine.path.look_ahead);
+/// Planned segments that may wait for the motion, however few the planner looks ahead. It trades
+/// memory, some kilobytes each, for segments so short that fewer of them are less path than the
+/// motion needs to brake on.
+constexpr int kLeastWaiting = 200;
+
+int most_waiting(const RunRequest& request) {
+  return std::max(request.machine.path.look_ahead, kLeastWaiting);
+}
+
+std::size_t queue_size(const RunRequest& request) {
+  return static_cast<std::size_t>(most_waiting(request));
 }
 
 }  // namespace
@@ -24,8 +34,8 @@ WallClockPlanning::WallClockPlanning(const RunRequest& request, ProgramPlanner& 
                                      std::atomic<bool>& stop)
     : request_(request),
       stop_(stop),
-      segments_(look_ahead_of(request), look_ahead_of(request) + 2),
-      loop_(planner, segments_, link_, request.machine.path.look_ahead) {
+      segments_(queue_size(request), queue_size(request) + 2),
+      loop_(planner, segments_, link_, most_waiting(request)) {
   loop_.before_segment = request.hooks.before_segment;
 }
 

@@ -2,12 +2,14 @@
 
 #include <utility>
 
+#include "runtime/run_options.hpp"
+
 namespace twin::runtime {
 
 std::unique_ptr<SetPoints> SetPoints::open(const gcode::ProgramText& program,
                                            const config::MachineFile& machine,
                                            const std::optional<double>& feedrate) {
-  gcode::Reader reader(program, {.feedrate = feedrate});
+  gcode::Reader reader(program, reader_options(machine, feedrate));
   return std::unique_ptr<SetPoints>(new SetPoints(std::move(reader), machine));
 }
 

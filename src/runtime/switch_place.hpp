@@ -17,8 +17,10 @@ struct SegmentPhases {
   std::vector<feedrate::Phase> phases;
 };
 
-/// A place closer than this to the end of a segment is taken as the end [mm].
-inline constexpr double kSegmentEnd = 1e-6;
+/// A place closer than this to the end of a segment is taken as the end [mm]. A motion that goes on
+/// from there leaves out the rest, as a step that no plan knows of: ten times as much would be seen
+/// as jerk at short periods.
+inline constexpr double kSegmentEnd = 1e-9;
 
 /// A place of a plan without tangential acceleration, where another plan may take over.
 struct SwitchPlace {

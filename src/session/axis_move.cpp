@@ -27,7 +27,11 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move,
   TWIN_CHECK(write_whole_file(program, text));
   request.program = gcode::ProgramText::from_text(text, program);
   TWIN_TRY(Session session, Session::open(std::move(request)));
-  return session.run({.stop = &stop});
+  TWIN_TRY(runtime::RunResult result, session.run({.stop = &stop}));
+  if (auto shown = session.write_report(); !shown && !result.failure) {
+    return tl::unexpected(shown.error());
+  }
+  return result;
 }
 
 }  // namespace twin::session

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/atomic_file.hpp"
 #include "results/metrics/summary.hpp"
@@ -43,10 +45,28 @@ Expected<void> write_summary(const std::filesystem::path& folder,
                           results::to_json(result.summary));
 }
 
-void remove_stale_results(const std::filesystem::path& folder) {
+void remove_stale_results(const std::filesystem::path& folder, Results results, Trace trace) {
+  std::vector<const char*> names{"video.mp4", "report.html"};
+  if (results == Results::kWhole) {
+    names.insert(names.end(), {"trace.partial.csv", "summary.partial.json"});
+  } else {
+    names.insert(names.end(), {"trace.csv", "summary.json"});
+  }
+  if (trace == Trace::kNone) {
+    names.push_back("trace.csv");
+  }
   std::error_code ignored;
-  for (const char* name : {"video.mp4", "trace.partial.csv", "summary.partial.json"}) {
+  for (const char* name : names) {
     std::filesystem::remove(folder / name, ignored);
+  }
+  if (results == Results::kWhole && trace == Trace::kWritten) {
+    return;
+  }
+  for (const auto& plot : std::filesystem::directory_iterator(folder / "plots", ignored)) {
+    const std::string name = plot.path().filename().string();
+    if (plot.is_regular_file(ignored) && name.find(".partial.") == std::string::npos) {
+      std::filesystem::remove(plot.path(), ignored);
+    }
   }
 }
 

@@ -19,7 +19,13 @@ std::filesystem::path result_folder(const std::filesystem::path& chosen,
 /// Writes summary.json, or summary.partial.json for a run that failed.
 Expected<void> write_summary(const std::filesystem::path& folder, const runtime::RunResult& result);
 
-/// Removes the files of an earlier run in the folder that this run does not make again.
-void remove_stale_results(const std::filesystem::path& folder);
+/// Whether a run has come to the end of its program.
+enum class Results { kWhole, kPartial };
+/// Whether a run has left a trace.
+enum class Trace { kWritten, kNone };
+
+/// Removes the files of an earlier run in the folder that this run does not make again, so that
+/// they do not pass for its own.
+void remove_stale_results(const std::filesystem::path& folder, Results results, Trace trace);
 
 }  // namespace twin::session

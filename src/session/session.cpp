@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "core/units.hpp"
 #include "runtime/program_bound.hpp"
+#include "runtime/run_options.hpp"
+#include "session/report.hpp"
 #include "session/results.hpp"
 
 namespace twin::session {
@@ -45,6 +48,13 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.feedrate = request_.feedrate;
   run.directory = request_.files == Files::kWritten ? request_.folder : std::filesystem::path();
   run.sinks = request_.sinks;
+  run.has_trace = request_.has_trace;
+  if (!request_.columns.empty()) {
+    TWIN_TRY(run.columns,
+             results::choose_columns(
+                 request_.columns, hal_ == nullptr ? results::Layout::kPlan : results::Layout::kRun,
+                 hal_ != nullptr && hal_->info().has_forces));
+  }
   run.servo = request_.servo;
   run.is_wall_clock = is_on_wall_clock();
   run.overrides = request_.overrides;
@@ -54,6 +64,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.panel = attendance.panel;
   run.progress = attendance.progress;
   run.estimated = attendance.estimated;
+  run.noted = attendance.noted;
   TWIN_TRY(runtime::RunResult result, runtime::run_program(run));
   if (request_.has_bound && !result.failure) {
     TWIN_TRY(result.summary.time_bound, runtime::time_bound(request_.program, request_.machine,
@@ -62,16 +73,24 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   if (request_.files == Files::kNone) {
     return result;
   }
+  is_partial_ = result.failure.has_value();
+  remove_stale_results(request_.folder, result.failure ? Results::kPartial : Results::kWhole,
+                       request_.has_trace ? Trace::kWritten : Trace::kNone);
   TWIN_CHECK(write_summary(request_.folder, result));
-  if (!result.failure) {
-    remove_stale_results(request_.folder);
-  }
   return result;
 }
 
 Expected<void> Session::draw_figures() const {
-  return session::draw_figures({request_.folder, request_.program, title(),
-                                hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun});
+  return session::draw_figures(
+      {request_.folder, request_.program, title(),
+       hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun,
+       std::string(is_partial_ ? results::kPartialTraceName : results::kTraceName)});
+}
+
+Expected<void> Session::write_report() const {
+  const std::array<std::filesystem::path, 1> folders{request_.folder};
+  const auto known = [this](const TraceOrigin&) { return std::optional(request_.program); };
+  return session::write_report(folders, known, request_.folder / kReportName);
 }
 
 Expected<void> Session::render_video(const std::string& camera,

@@ -49,7 +49,9 @@ struct Request {
   std::filesystem::path folder;    ///< folder of the results; empty: renders/NAME of the program
   Files files = Files::kWritten;
   std::vector<TraceSink*> sinks{};  ///< get the rows of the trace, besides the files
-  Servo* servo = nullptr;           ///< position loops in place of the machine file's; may be null
+  bool has_trace = true;            ///< whether the rows go to trace.csv where files are written
+  std::string columns{};   ///< of the trace, as choose_columns() takes them; empty: default
+  Servo* servo = nullptr;  ///< position loops in place of the machine file's; may be null
   Pace pace = Pace::kOwn;
   std::vector<runtime::OverrideChange> overrides{};  ///< feed override at times of the motion
   runtime::Until until{};                            ///< ends the motion early; may be empty
@@ -62,7 +64,10 @@ struct Attendance {
   const std::atomic<bool>* stop = nullptr;  ///< the caller sets it to brake on the path and end
   runtime::OperatorPanel* panel = nullptr;  ///< for override and hold by an operator
   std::function<void(double)> progress{};   ///< called with the share that is done, 0 to 1
-  std::function<void(double)> estimated{};  ///< called with the cycle time before the motion [s]
+  std::function<void(double)>
+      estimated{};  ///< called with the machining time before the motion [s]
+  /// Called with the notes on the program before the motion, if there are any.
+  std::function<void(const std::vector<gcode::Note>&)> noted{};
 };
 
 /// A program and its machine, ready to run.
@@ -70,6 +75,7 @@ struct Attendance {
 ///   open()           makes the machine
 ///   run()            plans, moves, writes trace.csv and summary.json
 ///   draw_figures()   draws the plots of the trace
+///   write_report()   writes report.html, the page of the run
 ///   render_video()   renders video.mp4 from the trace
 class Session {
  public:
@@ -77,6 +83,7 @@ class Session {
 
   /// File of the program, or the name of its text.
   const std::filesystem::path& program() const noexcept { return request_.program.file(); }
+  const gcode::ProgramText& text() const noexcept { return request_.program; }
   const config::MachineFile& machine() const noexcept { return request_.machine; }
   const std::filesystem::path& folder() const noexcept { return request_.folder; }
   /// The machine that moves; null for a plan.
@@ -86,6 +93,9 @@ class Session {
   /// Title of the pictures: "dolphin.nc, 3000 mm/min".
   std::string title() const;
 
+  /// Lets run() hand the rows to a further sink, which outlives it.
+  void add_sink(TraceSink& sink) { request_.sinks.push_back(&sink); }
+
   /// Runs the program, computes the bound of its time if asked for, and writes the summary. After a
   /// complete run it removes files of earlier runs that the new ones do not replace.
   ///
@@ -93,8 +103,11 @@ class Session {
   ///          could not begin or its files could not be written
   Expected<runtime::RunResult> run(const Attendance& attendance = {});
 
-  /// Draws the figures of the trace that run() has left.
+  /// Draws the figures of the trace that run() has left, also of a run that ended early.
   Expected<void> draw_figures() const;
+
+  /// Writes report.html from what run() has left, also of a run that ended early.
+  Expected<void> write_report() const;
 
   /// Renders the video of the trace that run() has left.
   ///
@@ -109,6 +122,7 @@ class Session {
   Request request_;
   std::unique_ptr<hal::Machine> made_;
   hal::Machine* hal_;
+  bool is_partial_ = false;  // run() ended early
 };
 
 }  // namespace twin::session

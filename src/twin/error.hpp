@@ -15,7 +15,7 @@ enum class ErrorCode {
   kFile,         ///< a file cannot be read or written: exit status 1
   kModel,        ///< the MuJoCo model is missing, broken or became unstable: exit status 1
   kMachine,      ///< the machine refused or failed: exit status 1
-  kInterrupted,  ///< the user stopped the run: exit status 1
+  kInterrupted,  ///< the user stopped the run: exit status 130
 };
 
 /// An error that a user can act on: it says where, what was found and what was expected.
@@ -30,7 +30,8 @@ struct Error {
 /// The error as one line of text, "square.nc:3:7: MESSAGE". Parts that are not known are left out.
 TWIN_EXPORT std::string to_string(const Error& error);
 
-/// Exit status with which a process should end after this error: 2 for kUsage, 1 for all others.
+/// Exit status with which a process should end after this error: 2 for kUsage, 130 for kInterrupted, 1
+/// for all others.
 TWIN_EXPORT int exit_status(const Error& error) noexcept;
 
 /// The exception that the functions of <twin/...> throw. what() returns to_string(error()).

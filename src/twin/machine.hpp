@@ -43,6 +43,10 @@ struct Inputs {
 /// Where the table really is. Only a simulated machine knows this; a real one has its encoders.
 struct Truth {
   std::array<double, kServoAxes> table_position{};  ///< [mm]
+  /// Torque of each motor, 0 unless info().has_forces [N.m].
+  std::array<double, kServoAxes> motor_torque{};
+  /// Friction of each slide, positive against positive motion, 0 unless info().has_forces [N].
+  std::array<double, kServoAxes> friction_force{};
 };
 
 /// Result of read() and write(), the two calls of every period.
@@ -67,6 +71,7 @@ struct MachineInfo {
   std::string name;             ///< name in the summary, such as "mujoco", "ideal" or "rig"
   bool simulated = true;        ///< false if real axes move
   bool has_truth = true;        ///< whether truth() returns the true position
+  bool has_forces = false;      ///< whether truth() returns torques and friction
   bool keeps_own_time = false;  ///< true: time passes on the wall clock, not inside read()
   /// True: the machine stands exactly at the reference that was last handed to write(). Its
   /// measured position is then truth() after write(), and the monitors do not watch it.

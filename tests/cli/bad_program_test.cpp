@@ -53,12 +53,16 @@ TEST_F(BadProgram, Empty) {
 }
 
 TEST_F(BadProgram, UnterminatedComment) {
-  expect_refused("G01 X1 F600\n(never ends\n", "bad.nc:2:1", "comment has no end");
+  // It goes to the end of its line, which is noted.
+  folder.put("bad.nc", "G01 X1 F600\n(never ends\nX2\n");
+  const auto result = twin({"check", "bad.nc"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out + result.err, ::testing::HasSubstr("line 2"));
 }
 
 TEST_F(BadProgram, UnknownCode) {
   expect_refused("G01 X1 F600\nG123 X2\n", "bad.nc:2:1", "G123");
-  expect_refused("G01 X1 F600\nM98 P1\n", "bad.nc:2:1", "M98");
+  expect_refused("G01 X1 F600\nM98 P1\n", "bad.nc:2:5", "there is no O1 in the program");
   expect_refused("G01 X1 A90 F600\n", "bad.nc:1:8", "A");
 }
 

@@ -25,7 +25,7 @@ class Convert : public test::CliTest {
 
 TEST_F(Convert, WritesTheFileAndATable) {
   for (const auto& [dialect, extension, word] :
-       {std::tuple("g5.2", ".nc", "G05.2 P1 L4"), std::tuple("g6.2", ".nc", "G06.2 P4 K0"),
+       {std::tuple("g5.2", ".nc", "G05.2 P1 L4"), std::tuple("g6.2", ".nc", "G06.2 P4 Q3 K0"),
         std::tuple("fanuc", ".nc", "G06.2 P4 K0"), std::tuple("bspline", ".mpf", "BSPLINE SD=3")}) {
     const auto result = twin({"convert", "oxalis.nc", "--to", dialect});
     EXPECT_EQ(result.status, 0) << result.err;

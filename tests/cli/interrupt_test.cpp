@@ -39,7 +39,7 @@ TEST_P(Interrupt, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
   wait_for_samples();
   child.signal(GetParam());
   const auto result = child.wait();
-  expect_refusal(result, 1, "interrupted: stopped on the path at t = ");
+  expect_refusal(result, 130, "interrupted: stopped on the path at t = ");
   EXPECT_THAT(result.err, ::testing::HasSubstr("NC line 1"));
   EXPECT_TRUE(exists("out/summary.partial.json"));
   const test::TraceRows rows(folder / "out/trace.partial.csv");
@@ -64,7 +64,7 @@ TEST_P(InterruptInSimulatedTime, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
       {folder.path(), {}});
   wait_for_samples();
   child.signal(GetParam());
-  expect_refusal(child.wait(), 1, "interrupted: stopped on the path at t = ");
+  expect_refusal(child.wait(), 130, "interrupted: stopped on the path at t = ");
   const test::TraceRows rows(folder / "out/trace.partial.csv");
   EXPECT_EQ(rows.last("feedrate_mm_per_s"), 0.0);
   test::expect_within_limits(rows.column("x_cmd_mm"), 0.001, Limits{}, 0.5);

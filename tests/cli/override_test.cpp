@@ -54,10 +54,10 @@ TEST_F(OverrideCli, AWrongScheduleIsRefused) {
   expect_refusal(run({"--control", "socket"}), 2, "--control is for runs on the wall clock");
 }
 
-TEST_F(OverrideCli, CheckSaysTheCycleTime) {
+TEST_F(OverrideCli, CheckSaysTheMachiningTime) {
   ASSERT_EQ(run({}).status, 0);
   const auto checked = twin({"check", "ok.nc"});
-  EXPECT_THAT(checked.out, HasSubstr(fmt::format("cycle time {:.3f} s",
+  EXPECT_THAT(checked.out, HasSubstr(fmt::format("machining time {:.3f} s",
                                                  summary()["planned_time_s"].get<double>())));
 }
 

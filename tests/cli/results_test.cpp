@@ -54,20 +54,44 @@ const std::string kPlanKeys1 =
 const std::string kOrigin = " version command program_sha256 settings";
 const std::string kAxis = "{velocity_mm_per_s acceleration_mm_per_s2 jerk_mm_per_s3}";
 const std::string kAudit =
-    "feedrate_fluctuation_percent{max rms} "
     "audit{feedrate_mm_per_s tangential_acceleration_mm_per_s2 tangential_jerk_mm_per_s3 "
     "normal_acceleration_mm_per_s2 axis{x" +
     kAxis + " y" + kAxis + " z" + kAxis + "}}";
+const std::string kCutting =
+    "feedrate_fluctuation_percent{max rms} "
+    "cutting{time_s command_contour_error_um{max rms}";
+const std::string kCuttingRun =
+    " contour_error_um{max rms} table_contour_error_um{max rms} "
+    "tracking_error_um{x{max rms} y{max rms}}";
+
+/// The names of the maxima that have a place, each of which has the same keys.
+std::string take_maxima(Json& summary) {
+  std::string names;
+  for (const auto& [key, value] : summary["maxima"].items()) {
+    names += (names.empty() ? "" : " ") + key;
+    EXPECT_EQ(keys(value), "value t_s x_mm y_mm z_mm line segment") << key;
+  }
+  summary["maxima"] = 0;
+  return names;
+}
 
 TEST_F(Results, OfARunHaveTheirNamesInOrder) {
-  const Json summary = run("run", "out");
+  Json summary = run("run", "out");
+  EXPECT_THAT(take_maxima(summary),
+              ::testing::StartsWith("command_contour_error_max_um contour_error_max_um "
+                                    "table_contour_error_max_um x_tracking_error_max_um "
+                                    "y_tracking_error_max_um cutting_"));
   EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kRunHeader);
   EXPECT_EQ(keys(summary),
             kPlanKeys1 +
                 "machining_time_s certified_deviation_um command_contour_error_um{max rms} "
                 "contour_error_um{max rms} "
                 "table_contour_error_um{max rms} tracking_error_um{x{max rms} y{max rms}} " +
-                kAudit + " cycle_time_us{p50 p99 max} real_time_factor" + kOrigin);
+                kCutting + kCuttingRun + "} " + kAudit +
+                " maxima loops{x{bandwidth_Hz phase_margin_deg gain_margin} "
+                "y{bandwidth_Hz phase_margin_deg gain_margin}} cycle_time_us{p50 p99 max} "
+                "real_time_factor" +
+                kOrigin);
   EXPECT_EQ(summary["program"], "ok.nc");
   EXPECT_EQ(summary["machine"], "xy_table");
   EXPECT_EQ(summary["hal"], "mujoco");
@@ -76,17 +100,20 @@ TEST_F(Results, OfARunHaveTheirNamesInOrder) {
 }
 
 TEST_F(Results, OfAPlanHaveTheSetPointsAlone) {
-  const Json summary = run("plan", "out");
+  Json summary = run("plan", "out");
+  take_maxima(summary);
   EXPECT_EQ(first_line(content(folder / "out/trace.csv")), kPlanHeader);
-  EXPECT_EQ(
-      keys(summary),
-      kPlanKeys1 + "certified_deviation_um command_contour_error_um{max rms} " + kAudit + kOrigin);
+  EXPECT_EQ(keys(summary), kPlanKeys1 +
+                               "certified_deviation_um command_contour_error_um{max rms} " +
+                               kCutting + "} " + kAudit + " maxima" + kOrigin);
 }
 
 TEST_F(Results, OfAPlanHaveItsBoundWhereAskedFor) {
-  const Json summary = run("plan", "out", {"--bound"});
+  Json summary = run("plan", "out", {"--bound"});
+  take_maxima(summary);
   EXPECT_EQ(keys(summary), kPlanKeys1 + "time_bound_s bound_ratio certified_deviation_um " +
-                               "command_contour_error_um{max rms} " + kAudit + kOrigin);
+                               "command_contour_error_um{max rms} " + kCutting + "} " + kAudit +
+                               " maxima" + kOrigin);
   const double bound = summary["time_bound_s"];
   const double planned = summary["planned_time_s"];
   EXPECT_LT(bound, planned);
@@ -137,6 +164,114 @@ TEST_F(Results, SummaryIsThatOfTheTrace) {
   const auto error = rows.column("x_tracking_error_um");
   for (std::size_t i = 0; i < error.size(); ++i) {
     ASSERT_NEAR(error[i], 1000.0 * (command[i] - encoder[i]), 1e-9);
+  }
+}
+
+TEST_F(Results, MaximaAreThoseOfTheTraceAtTheirTimes) {
+  folder.put("ok.nc", "G00 X5 Y1 Z1\nG01 Z0 F1200\nX30\nG03 X33 Y4 R3\nG01 X0 Y0\nM30\n");
+  const Json summary = run("run", "out", {"--columns", "default,all"});
+  const test::TraceRows rows(folder / "out/trace.csv");
+  const auto t = rows.column("t_s");
+  const auto expect_place = [&](const std::string& key, const std::vector<double>& values) {
+    const Json& most = summary["maxima"][key];
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      largest = std::abs(values[i]) > std::abs(values[largest]) ? i : largest;
+    }
+    EXPECT_NEAR(most["value"].get<double>(), std::abs(values[largest]), 1e-6) << key;
+    EXPECT_NEAR(most["t_s"].get<double>(), t[largest], 1e-9) << key;
+    EXPECT_EQ(most["line"], rows.column("line")[largest]) << key;
+    EXPECT_EQ(most["segment"], rows.column("segment")[largest]) << key;
+    EXPECT_NEAR(most["x_mm"].get<double>(), rows.column("x_cmd_mm")[largest], 1e-6) << key;
+  };
+  expect_place("contour_error_max_um", rows.column("contour_error_um"));
+  expect_place("contour_error_max_um", rows.column("contour_error_signed_um"));
+  expect_place("table_contour_error_max_um", rows.column("table_contour_error_signed_um"));
+  expect_place("command_contour_error_max_um", rows.column("command_contour_error_signed_um"));
+  expect_place("x_tracking_error_max_um", rows.column("x_tracking_error_um"));
+  // Cutting is what is neither a rapid nor above the plate.
+  double largest = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (rows.column("rapid")[i] == 0.0 && rows.column("pen")[i] == 1.0) {
+      largest = std::max(largest, rows.column("contour_error_um")[i]);
+      ++count;
+    }
+  }
+  EXPECT_NEAR(summary["cutting"]["contour_error_um"]["max"].get<double>(), largest, 1e-6);
+  EXPECT_NEAR(summary["cutting"]["time_s"].get<double>(), 0.001 * count, 1e-9);
+  EXPECT_LT(summary["cutting"]["time_s"].get<double>(), 0.97 * t.back());
+}
+
+/// Peaks of the audit are where differences of the set points are as large.
+TEST_F(Results, PlacesOfThePeaksAreWhereTheTraceHasThem) {
+  const Json summary = run("run", "out");
+  const test::TraceRows rows(folder / "out/trace.csv");
+  const auto x = rows.column("x_cmd_mm");
+  const auto index = [&](const std::string& key) {
+    return static_cast<std::size_t>(
+        std::lround(summary["maxima"][key]["t_s"].get<double>() / 0.001));
+  };
+  const std::size_t v = index("x_velocity_peak_mm_per_s");
+  ASSERT_GT(v, 0U);
+  EXPECT_NEAR(summary["audit"]["axis"]["x"]["velocity_mm_per_s"].get<double>(),
+              std::abs(x[v] - x[v - 1]) / 1e-3, 1e-3);
+  const std::size_t a = index("x_acceleration_peak_mm_per_s2");
+  ASSERT_GT(a, 0U);
+  EXPECT_NEAR(summary["audit"]["axis"]["x"]["acceleration_mm_per_s2"].get<double>(),
+              std::abs(x[a + 1] - 2 * x[a] + x[a - 1]) / 1e-6, 1.0);
+}
+
+TEST_F(Results, ColumnsAreThoseThatAreChosen) {
+  run("run", "out", {"--columns", "t_s,path_mm,x_torque_Nm,x_friction_N"});
+  EXPECT_EQ(first_line(content(folder / "out/trace.csv")), "t_s,path_mm,x_torque_Nm,x_friction_N");
+  const test::TraceRows rows(folder / "out/trace.csv");
+  const Json summary = Json::parse(content(folder / "out/summary.json"));
+  EXPECT_NEAR(rows.last("path_mm"), summary["path_length_mm"].get<double>(), 0.05);
+  double largest = 0.0;
+  for (const double friction : rows.column("x_friction_N")) {
+    largest = std::max(largest, std::abs(friction));
+  }
+  EXPECT_GT(largest, 1.0);
+  EXPECT_LT(largest, 1000.0);
+}
+
+TEST_F(Results, ColumnsThatAreNotThereAreNamed) {
+  expect_refusal(twin({"run", "ok.nc", "--out", "out", "--columns", "t_s,x_torq"}), 2,
+                 "there is no column 'x_torq'");
+  expect_refusal(
+      twin({"run", "ok.nc", "--out", "out", "--hal", "ideal", "--columns", "default,x_torque_Nm"}),
+      2, "x_torque_Nm is not known of this machine");
+  expect_refusal(twin({"plan", "ok.nc", "--out", "out", "--columns", "x_enc_mm"}), 2,
+                 "x_enc_mm is not known of a plan");
+}
+
+TEST_F(Results, WithoutTraceThereIsTheSummaryAlone) {
+  run("run", "out", {"--no-trace"});
+  EXPECT_FALSE(exists("out/trace.csv"));
+  EXPECT_FALSE(exists("out/report.html"));
+  EXPECT_FALSE(exists("out/plots/feedrate_limit.csv"));
+}
+
+TEST_F(Results, JsonOnStandardOutputIsTheSummary) {
+  const auto result = twin({"run", "ok.nc", "--out", "out", "--no-trace", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, content(folder / "out/summary.json"));
+}
+
+TEST_F(Results, AFailedRunLeavesNothingOfTheRunBefore) {
+  ASSERT_EQ(twin({"run", "ok.nc", "--out", "out", "--quiet"}).status, 0);
+  EXPECT_TRUE(exists("out/plots"));
+  const auto failed = twin({"run", "ok.nc", "--out", "out", "--no-plots", "--hal", "rig", "--rig",
+                            "emulated", "--fault", "alarm:x@0.6"});
+  expect_refusal(failed, 1, "alarm");
+  EXPECT_TRUE(exists("out/trace.partial.csv"));
+  const Json partial = Json::parse(content(folder / "out/summary.partial.json"));
+  EXPECT_TRUE(partial.contains("ended_early"));
+  EXPECT_FALSE(partial.contains("planned_time_s"));
+  EXPECT_FALSE(partial.contains("blocks"));
+  for (const auto& plot : std::filesystem::directory_iterator(folder / "out/plots")) {
+    ADD_FAILURE() << plot.path() << " is of the run before";
   }
 }
 

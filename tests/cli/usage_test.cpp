@@ -113,7 +113,7 @@ TEST_F(Usage, SettingThatIsMisspeltIsNamedWithTheNearestKey) {
 }
 
 TEST_F(Usage, CheckTellsOfEveryProgramOnItsOwnLine) {
-  folder.put("bad.nc", "G05\n");
+  folder.put("bad.nc", "G77\n");
   folder.put("worse.nc", "G01 X1\n");
   const auto result = twin({"check", "bad.nc", "ok.nc", "worse.nc"});
   EXPECT_EQ(result.status, 1);

@@ -62,7 +62,7 @@ TEST(MachineFile, UnitOfAKeyMayBeLeftOut) {
 TEST(MachineFile, ModelIsRelativeToTheMachineFile) {
   EXPECT_EQ(parsed("[table]\nmodel = \"../models/a.xml\"\n").table.model, "/models/a.xml");
   EXPECT_EQ(parsed("[table]\nmodel = \"/opt/b.xml\"\n").table.model, "/opt/b.xml");
-  EXPECT_EQ(parsed("").table.model, "/rigs/xy_table.xml");
+  EXPECT_EQ(parsed("[table]\nmodel = \"none.xml\"").table.model, "/rigs/none.xml");
 }
 
 TEST(MachineFile, RefusalsNamePlaceValueUnitAndRange) {
@@ -190,6 +190,13 @@ TEST(MachineFile, FilesThatCannotBeReadAreRefused) {
   std::ofstream(binary) << std::string("[limits]\0\0", 10);
   EXPECT_THAT(message(binary), HasSubstr("binary data"));
   std::filesystem::remove(binary);
+}
+
+TEST(MachineFile, ACopiedOneFindsTheModelInTheProgramsFolder) {
+  const std::filesystem::path model = parsed("").table.model;  // /rigs has none
+  EXPECT_TRUE(model.is_absolute());
+  EXPECT_EQ(model.filename(), "xy_table.xml");
+  EXPECT_TRUE(std::filesystem::exists(model)) << model;
 }
 
 }  // namespace machine_file_test

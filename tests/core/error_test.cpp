@@ -16,10 +16,14 @@ TEST(Error, TextLeavesOutThePlaceThatIsNotKnown) {
   EXPECT_EQ(text("", 0, 0), "no F word");
 }
 
+TEST(Error, InterruptionExitsAsAShellDoes) {
+  EXPECT_EQ(exit_status(Error{ErrorCode::kInterrupted, "", "", 0, 0}), 130);
+}
+
 TEST(Error, OnlyBadUsageExitsWithTwo) {
   EXPECT_EQ(exit_status(Error{ErrorCode::kUsage, "", "", 0, 0}), 2);
-  for (const ErrorCode code : {ErrorCode::kProgram, ErrorCode::kFile, ErrorCode::kModel,
-                               ErrorCode::kMachine, ErrorCode::kInterrupted}) {
+  for (const ErrorCode code :
+       {ErrorCode::kProgram, ErrorCode::kFile, ErrorCode::kModel, ErrorCode::kMachine}) {
     EXPECT_EQ(exit_status(Error{code, "", "", 0, 0}), 1);
   }
 }

@@ -18,8 +18,10 @@ namespace twin::test {
 namespace process_faults_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kInTime = 0.025;  // [s]
+constexpr double kSoon = 0.2;      // [s]
 
 /// Patient but for the guard, which waits as long as it does by default.
 std::vector<std::string> with_heartbeats() {
@@ -112,7 +114,7 @@ TEST_P(PoliteSignal, BrakesOnThePathAndLeavesTheOutputsSafe) {
   const double before = monotonic();
   rig->controller->signal(GetParam());
   const auto result = rig->controller->wait();
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 130);
   EXPECT_THAT(result.err, HasSubstr("interrupted: stopped on the path at t = "));
   EXPECT_TRUE(rig->safe_after(before)) << rig->log();
   expect_partial_files();
@@ -121,6 +123,19 @@ TEST_P(PoliteSignal, BrakesOnThePathAndLeavesTheOutputsSafe) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, PoliteSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
                          [](const auto& test) { return std::string(sigabbrev_np(test.param)); });
+
+TEST_F(ProcessFault, ASecondSignalEndsTheRunAtOnceWithTheOutputsSafe) {
+  start();
+  const double before = monotonic();
+  rig->controller->signal(SIGINT);
+  rig->controller->signal(SIGTERM);
+  const auto result = rig->controller->wait();
+  EXPECT_GT(result.status, 1) << "it ended by itself";
+  EXPECT_THAT(result.err, Not(HasSubstr("stopped on the path")));
+  const auto safe = rig->safe_after(before);
+  ASSERT_TRUE(safe) << rig->log();
+  EXPECT_LT(*safe, kSoon);
+}
 
 TEST_F(ProcessFault, EmulatorThatIsKilledLooksLikeADeadEncoder) {
   std::vector<std::string> settings = kPatient;

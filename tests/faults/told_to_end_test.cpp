@@ -78,7 +78,7 @@ TEST_P(ToldToEnd, EndsSoonWithOneLineAndLeavesNothingBehind) {
   child.signal(SIGTERM);
   const auto result = child.wait();
   EXPECT_LT(Clock::now() - begin, kPromise);
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 130);
   EXPECT_THAT(result.err, ::testing::MatchesRegex("twin: .*(interrupted|not confirmed)[^\n]*\n"));
   EXPECT_THAT(test::broken_files(folder / "out"), IsEmpty());
   for (const std::string& name : test::unfinished_files(folder.path())) {
@@ -105,7 +105,7 @@ TEST_F(ToldToEnd, AProgramThatNeverComesIsNotWaitedFor) {
   test::Child child({"run", "never.nc", "--out", "out"}, {folder.path(), {}});
   wait_for("", child.pid());
   child.signal(SIGINT);
-  EXPECT_EQ(child.wait().status, 1);
+  EXPECT_EQ(child.wait().status, 130);
 }
 
 TEST_F(ToldToEnd, ANohupStaysDeafToSighup) {

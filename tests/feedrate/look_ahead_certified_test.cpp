@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/support/blocks.hpp"
 #include "tests/support/motion_profile.hpp"
 #include "tests/support/plan.hpp"
@@ -45,6 +47,35 @@ TEST(LookAheadCertified, RandomProgramsArePlannedWholeWithinOtherLimits) {
       ASSERT_NO_FATAL_FAILURE(expect_whole(planned, settings.limits))
           << "program " << i << " a " << acceleration << " j " << jerk;
       EXPECT_EQ(planned.fallbacks, 0) << "program " << i << " a " << acceleration << " j " << jerk;
+    }
+  }
+}
+
+/// Beyond this a path is slower: what the method loses by following closed forms.
+constexpr double kSlower = 1.001;
+
+TEST(LookAheadCertified, AHigherLimitNeverMakesAPathSlower) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 40; ++i) {
+    const auto blocks = random_program(random, 20);
+    const PlanSettings least = certified();
+    double acceleration = least.limits.acceleration;
+    double jerk = 0.1 * least.limits.jerk;
+    double before_a = std::numeric_limits<double>::infinity();
+    double before_j = before_a;
+    for (int k = 0; k < 5; ++k) {
+      PlanSettings settings = least;
+      settings.limits.acceleration = acceleration;
+      const double time_a = plan(blocks, settings).time;
+      EXPECT_LE(time_a, before_a * kSlower) << "program " << i << " a " << acceleration;
+      settings = least;
+      settings.limits.jerk = jerk;
+      const double time_j = plan(blocks, settings).time;
+      EXPECT_LE(time_j, before_j * kSlower) << "program " << i << " j " << jerk;
+      before_a = time_a;
+      before_j = time_j;
+      acceleration *= 1.4;
+      jerk *= 1.8;
     }
   }
 }

@@ -33,7 +33,11 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::array kTargets{&kReader, &kMachineFile, &kCsv, &kOperator, &kJson, &kChain};
-constexpr unsigned kPatience = 20;  // for one file or one program [s]
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr unsigned kPatience = 200;  // for one file or one program [s]
+#else
+constexpr unsigned kPatience = 20;
+#endif
 
 /// What runs at the moment, for a hang.
 std::string g_running;

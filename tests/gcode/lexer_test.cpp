@@ -1,4 +1,4 @@
-#include "gcode/lexer.hpp"
+#include "gcode/words/lexer.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,24 +7,24 @@
 #include <random>
 #include <string>
 
+#include "gcode/values/number.hpp"
+#include "gcode/values/parameters.hpp"
+
 namespace twin::gcode {
 namespace lexer_test {
 
 /// The words of a line as "letter value @column", or the fault as "column: message".
 std::string words_of(std::string_view line) {
-  Lexer lexer(line);
+  Parameters parameters(nullptr, Dialect::kLinuxCnc);
+  Lexer lexer(line, parameters);
   std::string text;
-  while (true) {
-    const auto found = lexer.next();
-    if (!found) {
-      return fmt::format("{}: {}", found.error().column, found.error().message);
-    }
-    if (!*found) {
-      return text;
-    }
-    const Word& word = **found;
+  Word word;
+  for (Lexer::Found found = lexer.next(word); found == Lexer::Found::kWord;
+       found = lexer.next(word)) {
     text += fmt::format("{}{}@{} ", word.letter, word.value, word.column);
   }
+  const Error fault = lexer.take_fault();
+  return fault.message.empty() ? text : fmt::format("{}: {}", fault.column, fault.message);
 }
 
 TEST(Lexer, WordsWithAndWithoutBlanksInBothCases) {
@@ -39,8 +39,9 @@ TEST(Lexer, CommentsPassByWhereverAWordMayBegin) {
 }
 
 TEST(Lexer, CommentFaultsPointAtTheComment) {
-  EXPECT_EQ(words_of("X1 (open"), "4: the comment has no end: expected ) on the same line");
-  EXPECT_EQ(words_of("(a(b))"), "3: a comment within a comment: expected ) first");
+  EXPECT_EQ(words_of("X1 (open (one) Y2"),
+            "4: the comment has more ( than ), and text behind it: expected as many");
+  EXPECT_EQ(words_of("X1 (a\x01)"), "6: byte 0x01 is not NC text: is this an NC program?");
   EXPECT_EQ(words_of("X1)"), "3: unexpected ')': expected a letter and a number");
 }
 
@@ -61,14 +62,22 @@ TEST(Lexer, NumbersHaveNoExponentAndNoEndlessSize) {
 
 TEST(Lexer, BlanksDoNotSplitNumbers) {
   EXPECT_EQ(words_of("X1 2"), "4: unexpected '2': expected a letter and a number");
-  EXPECT_EQ(words_of("X- 2"), "1: X has no number: expected one, found '-'");
+  EXPECT_EQ(words_of("X- 2"), "X-2@1 ");
+  EXPECT_EQ(words_of("X- - 2"), "1: X has no number: expected one, found '-'");
 }
 
-TEST(Lexer, ExpressionsAreRefusedByName) {
-  EXPECT_EQ(words_of("#1=2"),
-            "1: '#': variables and expressions are not supported; expected a letter and a number");
-  EXPECT_EQ(words_of("X[1+2]"),
-            "2: X followed by '[': variables and expressions are not supported; expected a number");
+TEST(Lexer, ExpressionsGiveWordsTheirNumbers) {
+  EXPECT_EQ(words_of("#1=2 G1"), "G1@6 ");
+  EXPECT_EQ(words_of("X[1+2]Y-[3]Z- sin[90] i+#5"), "X3@1 Y-3@7 Z-1@12 I0@23 ");
+  EXPECT_EQ(words_of("X[1e3]"), "4: expected an operator or ], found 'e3]'");
+  EXPECT_EQ(words_of("X[1e9*2]"), "4: expected an operator or ], found 'e9*2]'");
+  EXPECT_EQ(words_of("X[1000000*2000]"),
+            "1: the number of X is too large: expected at most 1000000000");
+}
+
+TEST(Lexer, LineNumbersOfAnySize) {
+  EXPECT_EQ(words_of("N99999999999999999999 G1"), "N0@1 G1@23 ");
+  EXPECT_EQ(words_of("N12.5 G1"), "N12@1 G1@7 ");
 }
 
 TEST(Lexer, BytesThatAreNoTextAreGivenByValue) {

@@ -1,4 +1,4 @@
-#include "gcode/line_source.hpp"
+#include "gcode/text/line_source.hpp"
 
 #include <gtest/gtest.h>
 

@@ -172,7 +172,10 @@ TEST(ReadNurbs, WordsThatDoNotBelong) {
 }
 
 TEST(ReadNurbs, ModesInWhichThereIsNone) {
-  EXPECT_EQ(error_of("F600 G18\nG05.2\n"), "line 2:1: G05.2 outside the XY plane: expected G17");
+  EXPECT_EQ(
+      error_of("F600 G41.1 D1\nG05.2\n"),
+      "line 2:1: a NURBS with G41, G42, G16 or G93 in force: expected G40, G15 and G94, and a "
+      "straight move behind G40");
   EXPECT_EQ(error_of("F600 G61\nG06.2\n"),
             "line 2:1: G06.2 with G61 (exact stop) in force: expected G64");
   EXPECT_EQ(error_of("F600\nG91 G06.2\n"),
@@ -196,8 +199,8 @@ TEST(ReadNurbs, FirstControlPointElsewhere) {
 
 TEST(ReadNurbs, CurvesWithoutTangentOrLength) {
   EXPECT_THAT(error_of(uniform("X1 Y0\nX1 Y0\nX1 Y0\nG05.3\n")), HasSubstr("has no length"));
-  EXPECT_THAT(error_of(uniform("X1 Y0\nX2 Y2\nX3 Y0\nG05.3\n")),
-              HasSubstr("line 6:1: the NURBS has no tangent at parameter 0"));
+  EXPECT_THAT(error_of(uniform("X1 Y0\nX1 Y0\nX2 Y2\nX3 Y0\nG05.3\n")),
+              HasSubstr("line 7:1: the NURBS has no tangent at parameter 0"));
   // The control polygon of a cubic with a cusp in its middle is a symmetric bow tie.
   EXPECT_THAT(error_of("F600 G0 X0 Y0\nG05.2 L4\nX1 Y1 P1\nX0 Y1 P1\nX1 Y0 P1\nG05.3\n"),
               HasSubstr("line 6:1: the NURBS has no tangent at parameter 0.5"));

@@ -24,11 +24,18 @@ TEST(ProgramEnd, SecondPercentEnds) {
 }
 
 TEST(ProgramEnd, PercentBelongsBeforeTheProgram) {
-  EXPECT_EQ(error_of("G0 X1\n%\n"),
-            "line 2:1: % after the program has begun: expected it before every other line");
+  EXPECT_EQ(
+      error_of("G0 X1\n%\nX2"),
+      "line 2:1: % after the program has begun: expected it before every other line, or behind "
+      "all of them");
   EXPECT_EQ(error_of("%G0 X1\n"), "line 1:2: words after %: expected them on the next line");
-  EXPECT_EQ(error_of("%PROG\n"), "line 1:2: P has no number: expected one, found 'ROG'");
+  EXPECT_EQ(error_of("%PROG\n"), "line 1:2: words after %: expected them on the next line");
   EXPECT_EQ(error_of("G0 X1 %\n"), "line 1:7: '%' must be the first character of its line");
+}
+
+TEST(ProgramEnd, PercentBehindAllLinesEnds) {
+  EXPECT_EQ(blocks_of("G0 X1\n%\n \n").size(), 1U);
+  EXPECT_EQ(blocks_of("(name)\n; more\n%\nG0 X1\n%\nX2").size(), 1U);
 }
 
 TEST(ProgramEnd, ProgramsThatDoNotMoveAreRefused) {

@@ -60,7 +60,7 @@ TEST_P(PushedTable, DoesNotCreepUnderAVibratingLoad) {
 // A force that grows slowly, so that damping and inertia add nothing to it. Up to the elastic share
 // of the Coulomb friction the slide hangs on the bristle as on a spring.
 TEST_P(PushedTable, PreSlidingStiffnessIsThatOfTheBristleWithinOnePercent) {
-  const LugreParams& friction = params.axis[axis].friction;
+  const FrictionParams& friction = params.axis[axis].friction;
   const double rate = 2.0;  // [N/s]
   std::array<double, 2> force{};
   std::array<double, 2> place{};
@@ -88,7 +88,7 @@ TEST_P(PushedTable, BreaksAwayAtStaticFrictionWithinTwoPercent) {
 }
 
 TEST_P(PushedTable, DeflectsElasticallyByForceOverBristleStiffness) {
-  const LugreParams& friction = params.axis[axis].friction;
+  const FrictionParams& friction = params.axis[axis].friction;
   const double force = 0.5 * friction.coulomb;
   pass(3.0, force);
   EXPECT_NEAR(position(), force / friction.bristle_stiffness,
@@ -99,7 +99,7 @@ TEST_P(PushedTable, DeflectsElasticallyByForceOverBristleStiffness) {
 
 TEST_P(PushedTable, TerminalSpeedIsWhereFrictionBalancesThePush) {
   // At 50 mm/s the Stribeck part has died out: force = Fc + s2 v.
-  const LugreParams& friction = params.axis[axis].friction;
+  const FrictionParams& friction = params.axis[axis].friction;
   TableParams slippery = params;
   slippery.axis[axis].friction.viscous = 1.0;  // N s/mm, so that it settles soon
   MujocoMachine sliding(slippery);

@@ -50,7 +50,7 @@ TEST_P(SteadySliding, ForceFollowsTheStribeckFormulaWithinOnePercent) {
   axis.dac_bits = 40;
   axis.drive.velocity_gain_Hz =
       150.0;  // stiffer than the curve falls, or the slide sticks and slips
-  const LugreParams& f = axis.friction;
+  const FrictionParams& f = axis.friction;
   const double fs = f.static_ratio * f.coulomb;
   const double mm_per_s_per_volt = axis.drive.vref_scale_rpm_per_V / 60.0 * axis.screw.lead;
   for (const double speed : {0.05, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 50.0, 150.0}) {

@@ -12,10 +12,13 @@ namespace quantities_test {
 Summary whole() {
   Summary s;
   s.certified = Certificate{};
+  s.plan_fallbacks = 1;
   s.time_bound = 1.0;
   s.planning_time = 1.0;
   s.run = MachineResults{};
   s.run->realtime = RealTimeStats{};
+  s.cutting = CuttingStats{};
+  s.cutting->run = CuttingErrors{};
   return s;
 }
 

@@ -135,7 +135,7 @@ TEST(Planning, EndsWhenTheSinkSaysSo) {
 }
 
 TEST(Planning, PassesOnTheReadersError) {
-  const auto figures = plan("G01 X1 F600\nG05\n");
+  const auto figures = plan("G01 X1 F600\nG77\n");
   ASSERT_FALSE(figures);
   EXPECT_EQ(figures.error().line, 2);
 }

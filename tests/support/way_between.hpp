@@ -33,9 +33,12 @@ inline std::optional<Lengths> lengths_on_line(std::span<const Vec3, 4> p, double
   return lengths;
 }
 
-/// The same on one circle: the circle through the first, a middle and the last point. Nothing where
-/// two of the points are one, since there is a circle through any three.
-inline std::optional<Lengths> lengths_on_circle(std::span<const Vec3, 4> p, double off) {
+/// The same of the inner four of six points on one circle: the circle through the first, a middle
+/// and the last of them. Nothing where two of the points are one, since there is a circle through
+/// any three, and where neither the point before nor the one after is on the circle as well: now
+/// and then four points beside a corner are on one.
+inline std::optional<Lengths> lengths_on_circle(std::span<const Vec3, 6> around, double off) {
+  const std::span<const Vec3, 4> p = around.subspan<1, 4>();
   const Vec3 a = p[p.size() / 2] - p.front();
   const Vec3 b = p.back() - p.front();
   const Vec3 normal = a.cross(b);
@@ -48,14 +51,23 @@ inline std::optional<Lengths> lengths_on_circle(std::span<const Vec3, 4> p, doub
   const double radius = to_centre.norm();
   const Vec3 centre = p.front() + to_centre;
   const Vec3 axis = normal / std::sqrt(n2);
+  const auto distance = [&](const Vec3& point) {
+    const Vec3 from_centre = point - centre;
+    const double height = from_centre.dot(axis);
+    return std::hypot((from_centre - height * axis).norm() - radius, height);
+  };
+  const auto is_fifth = [&](const Vec3& point, const Vec3& neighbour) {
+    return distance(point) <= off && (point - neighbour).norm() > off;
+  };
+  if (!is_fifth(around[0], around[1]) && !is_fifth(around[5], around[4])) {
+    return std::nullopt;
+  }
   Lengths lengths{};
   for (std::size_t i = 1; i < p.size(); ++i) {
     const Vec3 from_centre = p[i] - centre;
-    const double height = from_centre.dot(axis);
-    const double aside = std::hypot((from_centre - height * axis).norm() - radius, height);
     const bool is_ahead = (p[i - 1] - centre).cross(from_centre).dot(axis) >= 0.0;
     const double chord = (p[i] - p[i - 1]).norm();
-    if (aside > off || !is_ahead || chord > radius || chord <= off) {
+    if (distance(p[i]) > off || !is_ahead || chord > radius || chord <= off) {
       return std::nullopt;
     }
     lengths[i - 1] = 2.0 * radius * std::asin(0.5 * chord / radius);
@@ -79,7 +91,7 @@ inline std::optional<Lengths> lengths_between(std::span<const Vec3, 6> around, d
   if (on_line || turns_back(2) || turns_back(3)) {
     return on_line;
   }
-  return lengths_on_circle(window, off);
+  return lengths_on_circle(around, off);
 }
 
 /// Curvature of the circle through three points times the square of the feedrate [mm/s^2].

@@ -29,9 +29,11 @@ double least_norm(const Vec3& a, const Vec3& b) {
 /// Divides one segment.
 class Divider {
  public:
-  Divider(const path::Segment& segment, const feedrate::FeedrateRules& rules, const Limits& limits,
-          const Fineness& fineness, std::vector<Cell>& cells)
+  Divider(const path::Segment& segment, std::span<const LimitZone> zones,
+          const feedrate::FeedrateRules& rules, const Limits& limits, const Fineness& fineness,
+          std::vector<Cell>& cells)
       : segment_(segment),
+        zones_(zones),
         rules_(rules),
         limits_(limits),
         fineness_(fineness),
@@ -47,6 +49,7 @@ class Divider {
   void divide_arc(const path::Arc& arc);
   void divide_curve(const path::FittedCurve& curve);
   double limit_at(const path::PathPoint& at) const;
+  double zone_limit(double begin, double end) const;
   double largest_limit(const GridPoint& a, const GridPoint& b) const;
   void append(const GridPoint& a, const GridPoint& b, double limit);
   void append_free(double length, double limit, double acceleration);
@@ -59,7 +62,8 @@ class Divider {
   void halve(double x0, const GridPoint& a, double x1, const GridPoint& b, const PlaceAt& place_at,
              int depth) {
     const double limit = largest_limit(a, b);
-    const bool varies = limit > (1.0 + fineness_.limit) * std::min(a.limit, b.limit);
+    const double least = std::max(std::min(a.limit, b.limit), zone_limit(a.s, b.s));
+    const bool varies = limit > (1.0 + fineness_.limit) * least;
     const bool turns = has_axes_ && (b.at.tangent - a.at.tangent).norm() > fineness_.turn;
     if (depth == kDeepest || !(varies || turns)) {
       append(a, b, limit);
@@ -72,6 +76,7 @@ class Divider {
   }
 
   const path::Segment& segment_;
+  std::span<const LimitZone> zones_;
   const feedrate::FeedrateRules& rules_;
   const Limits& limits_;
   const Fineness& fineness_;
@@ -94,7 +99,19 @@ double Divider::largest_limit(const GridPoint& a, const GridPoint& b) const {
     const double least = least_norm(a.at.curvature, b.at.curvature);
     limit = std::max(limit, rules_.limit_at({least}, segment_.feedrate, On::kCurve));
   }
-  return limit;
+  return std::max(limit, zone_limit(a.s, b.s));
+}
+
+/// Largest limit of the zones between two places [mm/s]. A zone may have a larger limit than the
+/// rules: the planner allows a rounded corner the error of corners.
+double Divider::zone_limit(double begin, double end) const {
+  const auto first = std::partition_point(zones_.begin(), zones_.end(),
+                                          [&](const LimitZone& zone) { return zone.end <= begin; });
+  double limit = 0.0;
+  for (auto zone = first; zone != zones_.end() && zone->begin < end; ++zone) {
+    limit = std::max(limit, zone->limit);
+  }
+  return std::min(limit, segment_.feedrate);
 }
 
 /// Largest feedrate that the axes allow somewhere between two places [mm/s].
@@ -164,8 +181,8 @@ void Divider::divide_arc(const path::Arc& arc) {
     return place;
   };
   if (!has_axes_ && !rules_.needs_turning()) {
-    const GridPoint middle = place_at(0.5 * arc.length);
-    append_free(segment_.length, middle.limit, limits_.acceleration);
+    const double limit = std::max(place_at(0.5 * arc.length).limit, zone_limit(0.0, arc.length));
+    append_free(segment_.length, limit, limits_.acceleration);
     return;
   }
   // Before halving there is at least a piece for each radian, so that no whole turn looks like
@@ -220,9 +237,10 @@ void Divider::divide() {
 
 }  // namespace
 
-void append_cells(const path::Segment& segment, const feedrate::FeedrateRules& rules,
-                  const Limits& limits, const Fineness& fineness, std::vector<Cell>& cells) {
-  Divider(segment, rules, limits, fineness, cells).divide();
+void append_cells(const path::Segment& segment, std::span<const LimitZone> zones,
+                  const feedrate::FeedrateRules& rules, const Limits& limits,
+                  const Fineness& fineness, std::vector<Cell>& cells) {
+  Divider(segment, zones, rules, limits, fineness, cells).divide();
 }
 
 }  // namespace twin::feedrate

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/limits.hpp"
 #include "feedrate/bound/cell.hpp"
 #include "feedrate/limits/feedrate_rules.hpp"
+#include "feedrate/limits/zones.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
@@ -26,7 +28,10 @@ struct Fineness {
 /// taken as linear over the cell. So the staircase of caps is nowhere below the limit, and a coarse
 /// grid gives a bound that is too low, not too high. Successive cells without axis limits and with
 /// the same cap become one.
-void append_cells(const path::Segment& segment, const feedrate::FeedrateRules& rules,
-                  const Limits& limits, const Fineness& fineness, std::vector<Cell>& cells);
+///
+/// @param zones  the planner's limits of the segment: the cap is nowhere below them
+void append_cells(const path::Segment& segment, std::span<const LimitZone> zones,
+                  const feedrate::FeedrateRules& rules, const Limits& limits,
+                  const Fineness& fineness, std::vector<Cell>& cells);
 
 }  // namespace twin::feedrate

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "feedrate/bound/reach.hpp"
+#include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -41,16 +42,14 @@ void TimeBound::add(const feedrate::PlannedSegment& planned) {
     }
     return;
   }
-  OpenSegment open{bare(segment), segment.stops_at_end ? 0.0 : kNoCap};
+  OpenSegment open{bare(segment), planned.limits, segment.stops_at_end ? 0.0 : kNoCap};
   for (const feedrate::LimitZone& zone : planned.limits) {
-    if (zone.begin == zone.end) {  // a corner: of this segment's end, or of its begin
-      const double q = zone.limit * zone.limit;
-      const bool is_begin = zone.end < 0.5 * segment.length;
-      if (!is_begin) {
-        open.end_cap = std::min(open.end_cap, q);
-      } else if (!open_.empty()) {
-        open_.back().end_cap = std::min(open_.back().end_cap, q);
-      }
+    const double q = zone.limit * zone.limit;
+    // A corner: of this segment's end, or of its begin. A place inside is the planner's own.
+    if (zone.begin == zone.end && zone.begin >= segment.length - kPlaceRounding) {
+      open.end_cap = std::min(open.end_cap, q);
+    } else if (zone.begin == zone.end && zone.end <= kPlaceRounding && !open_.empty()) {
+      open_.back().end_cap = std::min(open_.back().end_cap, q);
     }
   }
   open_.push_back(std::move(open));
@@ -71,7 +70,7 @@ void TimeBound::make_grid(std::size_t segments, const Fineness& fineness, Pass& 
   pass.cells.clear();
   pass.first.assign(1, 0);
   for (std::size_t i = 0; i < segments; ++i) {
-    append_cells(open_[i].segment, rules_, limits_, fineness, pass.cells);
+    append_cells(open_[i].segment, open_[i].zones, rules_, limits_, fineness, pass.cells);
     pass.first.push_back(pass.cells.size());
   }
   const std::size_t n = pass.cells.size();

@@ -68,8 +68,9 @@ class TimeBound {
  private:
   /// A segment whose time may still depend on the segments that follow.
   struct OpenSegment {
-    path::Segment segment;    // its geometry
-    double end_cap = kNoCap;  // largest q at its end
+    path::Segment segment;         // its geometry
+    std::vector<LimitZone> zones;  // of the planner
+    double end_cap = kNoCap;       // largest q at its end
   };
 
   /// The grid over the open segments and the passes on it.

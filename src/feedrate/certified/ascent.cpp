@@ -34,12 +34,10 @@ void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const An
   jerk_ = ramp.jerk;
   ceiling_ = std::max(ceiling, anchor.v);
   highest_ = anchor.v;
-  has_all_steps_ = is_complete_ = false;
+  has_all_steps_ = false;
   steps_.clear();
   step_ = 0;
-  phases_.clear();
-  tops_.clear();
-  at_ = {0.0, anchor.v, 0.0};
+  restart(anchor.v);
 }
 
 double Ascent::leaving_feedrate(const PathMotion& at) const noexcept {
@@ -214,22 +212,12 @@ void Ascent::lower(double x, double limit) {
   steps_.insert(place, {x, limit});
   is_complete_ = false;
   if (top() > limit) {
-    const Exit exit = exit_at(limit);
-    phases_.resize(std::min(exit.phase + 1, phases_.size()));
-    tops_.resize(phases_.size());
-    if (exit.phase < phases_.size()) {
-      phases_.back().duration = exit.time;
-      if (exit.time == 0.0) {
-        phases_.pop_back();
-        tops_.pop_back();
-      }
-    }
-    at_ = exit.at;
+    cut_at(exit_at(limit));
   }
   step_ = 0;
 }
 
-Ascent::Exit Ascent::exit_at(double v) const noexcept {
+Rise::Exit Ascent::exit_at(double v) const noexcept {
   const auto above = std::lower_bound(tops_.begin(), tops_.end(), v);
   Exit exit{phases_.size(), 0.0, at_, 0.0};
   if (above != tops_.begin()) {
@@ -246,6 +234,12 @@ Ascent::Exit Ascent::exit_at(double v) const noexcept {
   const double t = exit.at.a / jerk_;
   exit.distance = exit.at.s + t * (exit.at.v + t * exit.at.a / 3.0);
   return exit;
+}
+
+void Ascent::append_way_out(const Exit& exit, std::vector<Phase>& phases) const {
+  if (exit.at.a > 0.0) {
+    phases.push_back({exit.at.a / jerk_, exit.at.s, exit.at.v, exit.at.a, -jerk_});
+  }
 }
 
 }  // namespace twin::feedrate

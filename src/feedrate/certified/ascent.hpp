@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "feedrate/certified/rise.hpp"
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/profile/phases.hpp"
 #include "feedrate/profile/ramps.hpp"
@@ -35,9 +36,8 @@ enum class Sense : std::int8_t { kForward = 1, kBackward = -1 };
 /// that of the anchor and the highest limit there is exactly one place where jerk -J has to begin
 /// for the ascent to end at this feedrate.
 ///
-/// The phases are computed one by one with extend(), only as far as they are needed. A descent to
-/// an anchor is an ascent from the anchor, backward in time and along the path.
-class Ascent {
+/// The phases are computed one by one with extend(), only as far as they are needed.
+class Ascent final : public Rise {
  public:
   /// Begins an ascent, with no phase yet.
   /// @param zones    limits along the way from the anchor on, in path order
@@ -46,33 +46,11 @@ class Ascent {
   void start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor, Sense sense,
              const RampLimits& ramp, double ceiling);
 
-  /// Computes the next phase or phases; does nothing once the ascent is complete.
-  void extend();
-
-  /// Lowers the limits up to a distance. Phases that no longer keep them are dropped.
-  /// @param x      distance from the anchor [mm]
-  /// @param limit  [mm/s]
-  void lower(double x, double limit);
-
-  /// The phases computed so far; their s is the distance x from the anchor.
-  const std::vector<Phase>& phases() const noexcept { return phases_; }
-  /// Whether the highest limit is reached.
-  bool is_complete() const noexcept { return is_complete_; }
-  /// Highest feedrate at which the ascent can be left so far: p at the end of the last phase
-  /// [mm/s].
-  double top() const noexcept;
-  /// Distance of the end of the last phase from the anchor [mm].
-  double reached() const noexcept { return at_.s; }
-
-  /// Where -J has to begin for the ascent to end at a given feedrate.
-  struct Exit {
-    std::size_t phase;  ///< index of the phase; equal to the number of phases if after the last one
-    double time;        ///< time into that phase [s]
-    PathMotion at;      ///< motion where -J begins
-    double distance;    ///< distance at which the feedrate is reached, with a = 0 [mm]
-  };
-  /// @param v  from the anchor's feedrate to top() [mm/s]
-  Exit exit_at(double v) const noexcept;
+  void extend() override;
+  void lower(double x, double limit) override;
+  double top() const noexcept override;
+  Exit exit_at(double v) const noexcept override;
+  void append_way_out(const Exit& exit, std::vector<Phase>& phases) const override;
 
  private:
   struct Step {
@@ -99,12 +77,8 @@ class Ascent {
   double ceiling_ = 0.0;
   double highest_ = 0.0;  // limit of the step under way [mm/s]
   bool has_all_steps_ = false;
-  bool is_complete_ = false;
   std::vector<Step> steps_;
   std::size_t step_ = 0;  // first one that ends beyond at_
-  std::vector<Phase> phases_;
-  std::vector<double> tops_;  // p at the start of each phase [mm/s]
-  PathMotion at_{};           // end of the last phase
 };
 
 }  // namespace twin::feedrate

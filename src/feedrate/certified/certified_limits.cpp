@@ -1,10 +1,12 @@
 #include "feedrate/certified/certified_limits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "feedrate/limits/axis_limits.hpp"
+#include "path/passage.hpp"
 
 namespace twin::feedrate {
 namespace {
@@ -22,10 +24,6 @@ constexpr double kTwistMargin = 1.05;
 /// bend in two, each of which may then seem brief; a smaller one joins neighbours that are two
 /// corners.
 constexpr double kValley = 0.5;
-
-/// Beside a bend the curvature is below this share of its peak. What lies beside a brief bend is
-/// not held at the bend's feedrate; a larger share would leave more of its flanks to the ramps.
-constexpr double kBesideBend = 0.01;
 
 /// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
 /// changes along it. With twice as many, half as much is lost by taking the worst of each part.
@@ -59,6 +57,34 @@ constexpr double kAnyTurn = 0.25;
 /// the part of the tangential acceleration is small.
 constexpr double kSwing = 0.25;
 
+/// Ratios of the accelerations and of the jerks that are told apart where they change along a curve.
+/// Larger steps leave less of them, smaller ones make more places where they change.
+constexpr double kAccelerationStep = 1.25;
+constexpr double kJerkStep = 1.06;
+
+/// The highest step that is not above a value, counted from the value on a line.
+double on_step(double value, double most, double step) {
+  if (!(value < most)) {
+    return most;
+  }
+  return most * std::pow(step, -std::ceil(std::log(most / value) / std::log(step) - 1e-9));
+}
+
+/// Lowers acceleration and jerk of a zone to steps, so that they change in few places.
+void put_on_steps(const RampLimits& most, LimitZone& zone) {
+  zone.acceleration = on_step(zone.acceleration, most.acceleration, kAccelerationStep);
+  zone.deceleration = on_step(zone.deceleration, most.acceleration, kAccelerationStep);
+  zone.jerk = on_step(zone.jerk, most.jerk, kJerkStep);
+}
+
+/// Feedrate at which the normal acceleration leaves room for a tangential one A that swings within a
+/// period. With it the direction turns by kappa v T, and so much of A is square to the path:
+///   kappa v^2 + kappa v T A = A.
+double swinging_feedrate(double curvature, double acceleration, double period) {
+  const double b = curvature * period * acceleration;
+  return 2.0 * acceleration / (b + std::sqrt(b * b + 4.0 * curvature * acceleration));
+}
+
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
   return model;
@@ -80,6 +106,18 @@ ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
           (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
 }
 
+/// C''' of an arc. On a helix of radius r and rise 2 pi p, with c^2 = r^2 + p^2, it is the part of C'
+/// across the axis, of length r / c, times -1 / c^2; and |C''| = r / c^2. So with that part T
+///   C''' = -(|C''| / |T|)^2 T.
+Vec3 arc_twist(const geometry::Arc& arc, const path::PathPoint& at) {
+  const Vec3 across = arc.e1.dot(at.tangent) * arc.e1 + arc.e2.dot(at.tangent) * arc.e2;
+  const double square = across.squaredNorm();
+  if (!(square > 0.0)) {
+    return Vec3::Zero();
+  }
+  return -(at.curvature.squaredNorm() / square) * across;
+}
+
 /// Upper bounds of |C'|, |C''| and |C'''| between two places a and b, from their values at a, at b
 /// and at the midpoint c.
 ///
@@ -94,6 +132,12 @@ PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByAr
   };
   PathBounds bounds;
   const Vec3 bulge = (c.third - 0.5 * (a.third + b.third)).cwiseAbs();
+  for (int i = 0; i < 3; ++i) {
+    const std::array<double, 3> signs{a.second[i] * a.third[i], c.second[i] * c.third[i],
+                                      b.second[i] * b.third[i]};
+    const auto [least, most] = std::minmax_element(signs.begin(), signs.end());
+    bounds.trend[i] = *least >= 0.0 ? 1.0 : *most <= 0.0 ? -1.0 : 0.0;
+  }
   bounds.twist = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
   bounds.curvature = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist;
   bounds.tangent = (largest(a.first, c.first, b.first) + 0.25 * length * bounds.curvature)
@@ -112,7 +156,14 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       chord_error_(path.chord_error),
       period_(period),
       corner_error_(model.corner_error),
-      has_axis_limits_(has_axis_limits(limits)) {}
+      has_axis_limits_(has_axis_limits(limits)),
+      least_jerk_(limits.jerk) {
+  for (int i = 0; i < 3; ++i) {
+    if (limits.axis_jerk[i] > 0.0) {
+      least_jerk_ = std::min(least_jerk_, limits.axis_jerk[i]);
+    }
+  }
+}
 
 /// Feedrate at which any turn at all may lie within a period: it changes the velocity by less than
 /// A and J allow [mm/s].
@@ -135,6 +186,11 @@ double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On w
   double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
+    if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
+      limit =
+          std::min(limit, std::max(swinging_feedrate(at.curvature, limits_.acceleration, period_),
+                                   any_turn_feedrate()));
+    }
     if (const double turn = most_turn(interval); std::isfinite(turn)) {
       limit = std::min(limit, std::max(turn / (at.curvature * period_), any_turn_feedrate()));
     }
@@ -154,6 +210,7 @@ void CertifiedLimits::find_intervals(const path::FittedCurve& curve) {
 /// Marks the intervals of brief bends. A bend that is cut by an end of the curve counts as one that
 /// lasts.
 void CertifiedLimits::find_brief_bends() {
+  peaks_.clear();
   std::size_t begin = 0;
   while (begin < intervals_.size()) {
     double peak = intervals_[begin].curvature;
@@ -178,38 +235,81 @@ void CertifiedLimits::find_brief_bends() {
     for (std::size_t i = begin; i < end; ++i) {
       intervals_[i].is_brief = is_brief;
       intervals_[i].is_winding = turn >= kWinding;
-      intervals_[i].is_held = is_brief && i > begin && intervals_[i].curvature > kBesideBend * peak;
+    }
+    if (is_brief && (limits_.axis_jerk.array() > 0.0).any()) {
+      add_peak(begin, end, turn);
     }
     begin = end;
   }
 }
 
+/// Adds the middle of a brief bend: where its two most curved intervals meet.
+void CertifiedLimits::add_peak(std::size_t first, std::size_t last, double turn) {
+  const auto most = std::max_element(
+      intervals_.begin() + static_cast<std::ptrdiff_t>(first),
+      intervals_.begin() + static_cast<std::ptrdiff_t>(last),
+      [](const Interval& a, const Interval& b) { return a.curvature < b.curvature; });
+  std::size_t at = static_cast<std::size_t>(most - intervals_.begin());
+  if (at + 1 < last && intervals_[at + 1].curvature == most->curvature) {
+    ++at;
+  }
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Peak peak{at, turn / most->curvature, kFar};
+  if (!peaks_.empty()) {
+    Peak& before = peaks_.back();
+    peak.room = 0.5 * (intervals_[at].begin - intervals_[before.interval].begin);
+    before.room = std::min(before.room, peak.room);
+  }
+  peaks_.push_back(peak);
+}
+
+/// Limit of the middle of a brief bend [mm/s].
+/// @param limit  that of the bend beside it [mm/s]
+double CertifiedLimits::dip_limit(const Peak& peak, double limit, double feedrate) const {
+  const double reached =
+      std::isfinite(peak.room) ? path::feedrate_within(peak.room, feedrate, least_jerk_) : feedrate;
+  return limit * path::best_passage(peak.half, limit, reached, least_jerk_).dip;
+}
+
+/// Lowers the limits of an interval of a curve to what the axes allow.
+void CertifiedLimits::keep_axes(const path::FittedCurve& curve, std::size_t interval,
+                                LimitZone& zone) const {
+  const double u0 = curve.curvature[interval].u;
+  const double u1 = curve.curvature[interval + 1].u;
+  const int span = curve.curve.find_span(0.5 * (u0 + u1));
+  const auto from = curve.curve.derivatives(u0, span);
+  const auto to = curve.curve.derivatives(u1, span);
+  const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
+  const Vec3 third = (to.second - from.second) / (u1 - u0);
+  keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
+                                  by_arc_length(to, third), zone.end - zone.begin),
+                   limits_, intervals_[interval].is_brief ? BendKind::kBrief : BendKind::kLasting,
+                   zone);
+  put_on_steps(ramp_, zone);
+}
+
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
   find_intervals(curve);
+  peaks_.clear();
   if (!curve.is_programmed) {
     find_brief_bends();
   }
   ZoneRow row(zones);
+  auto peak = peaks_.begin();
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval& interval = intervals_[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end,
                    limit_at(interval, feedrate, On::kCurve)};
     if (has_axis_limits_) {
-      const double u0 = curve.curvature[i].u;
-      const double u1 = curve.curvature[i + 1].u;
-      const int span = curve.curve.find_span(0.5 * (u0 + u1));
-      const auto from = curve.curve.derivatives(u0, span);
-      const auto to = curve.curve.derivatives(u1, span);
-      const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
-      const Vec3 third = (to.second - from.second) / (u1 - u0);
-      keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
-                                      by_arc_length(to, third), interval.end - interval.begin),
-                       limits_, zone);
+      keep_axes(curve, i, zone);
     }
-    if (has_axis_limits_ && interval.is_held && !row.is_empty()) {
-      zone.limit = std::min(zone.limit, row.last().limit);
-      row.lower_last(zone.limit);
+    if (peak != peaks_.end() && peak->interval == i) {
+      const double dip = dip_limit(*peak, zone.limit, feedrate);
+      if (dip < zone.limit && !row.is_empty()) {
+        row.append({zone.begin, zone.begin, dip});
+      }
+      ++peak;
     }
     row.append(zone);
   }
@@ -230,11 +330,14 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
     if (has_axis_limits_) {
       const auto at = [&](double s) -> ByArcLength {
         const path::PathPoint p = arc != nullptr ? path::point_at(*arc, s) : segment.begin;
-        // K' of a circle is -kappa^2 T, of a helix less.
-        return {p.tangent, p.curvature, -p.curvature.squaredNorm() * p.tangent};
+        return {p.tangent, p.curvature,
+                arc != nullptr ? arc_twist(arc->geometry, p) : Vec3::Zero()};
       };
       keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
-                       limits_, zone);
+                       limits_, BendKind::kLasting, zone);
+      if (parts > 1) {
+        put_on_steps(ramp_, zone);
+      }
     }
     row.append(zone);
   }

@@ -27,9 +27,8 @@ namespace twin::feedrate {
 ///   (1 / cos(phi / 2) - 1) / kappa <= corner error.
 /// One bend ends and the next begins where the curvature has fallen to half of its peak.
 ///
-/// With limits of single axes, a brief bend becomes one zone at its lowest feedrate. Inside the
-/// bend the axes leave little acceleration and jerk for the motion along the path. Passing it at
-/// constant feedrate keeps those low values out of the ramps before and after it.
+/// Where the jerk of an axis bounds the feedrate in a brief bend, its middle is a place with a lower
+/// limit, so that the bend is left with acceleration (path/passage.hpp).
 ///
 /// The curvature of a FittedCurve is sampled four times on each interval of its arc length, and the
 /// intervals are divided until |C'| varies by less than 4 % (geometry/nurbs/arc_length.hpp). Then
@@ -57,7 +56,13 @@ class CertifiedLimits final : public LimitSource {
     double curvature;         // largest curvature in the interval [1/mm]
     bool is_brief = false;    // part of a brief bend
     bool is_winding = false;  // part of a bend that turns by more than a corner does
-    bool is_held = false;     // has one feedrate limit together with the interval before it
+  };
+
+  /// The middle of a brief bend.
+  struct Peak {
+    std::size_t interval;  // begins there
+    double half;           // half of the bend's length [mm]
+    double room;           // half the way to the next bend of the curve [mm]
   };
 
   double any_turn_feedrate() const noexcept;
@@ -65,6 +70,9 @@ class CertifiedLimits final : public LimitSource {
   double limit_at(const Interval& interval, double feedrate, On what) const;
   void find_intervals(const path::FittedCurve& curve);
   void find_brief_bends();
+  void add_peak(std::size_t first, std::size_t last, double turn);
+  double dip_limit(const Peak& peak, double limit, double feedrate) const;
+  void keep_axes(const path::FittedCurve& curve, std::size_t interval, LimitZone& zone) const;
   void append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                     std::vector<LimitZone>& zones);
   void append_arc(const path::Segment& segment, double s0, double feedrate,
@@ -78,7 +86,9 @@ class CertifiedLimits final : public LimitSource {
   double period_;
   double corner_error_;
   bool has_axis_limits_;
+  double least_jerk_;                // of the path and of all axes [mm/s^3]
   std::vector<Interval> intervals_;  // of the curve that is being processed
+  std::vector<Peak> peaks_;          // of its brief bends
 };
 
 }  // namespace twin::feedrate

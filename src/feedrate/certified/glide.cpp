@@ -56,33 +56,40 @@ bool Glide::plan(std::span<const LimitZone> zones, const Anchor& start, const An
   has_zone_ramps_ = false;
   for (const LimitZone& zone : zones) {
     ceiling_ = std::max(ceiling_, zone.limit);
-    has_zone_ramps_ =
-        has_zone_ramps_ || zone.acceleration < ramp.acceleration || zone.jerk < ramp.jerk;
+    has_zone_ramps_ = has_zone_ramps_ || zone.acceleration < ramp.acceleration ||
+                      zone.deceleration < ramp.acceleration || zone.jerk < ramp.jerk;
   }
+  is_even_ = false;
   if (plan_legs(start, end)) {
     return true;
   }
   if (!has_zone_ramps_) {
     return false;
   }
-  ramp_ = ramp_of(0, zones.size());
+  ramp_ = least_ramp();
   has_zone_ramps_ = false;
+  is_even_ = true;
   return plan_legs(start, end);
 }
 
 bool Glide::plan_legs(const Anchor& start, const Anchor& end) {
   phases_.clear();
   parts_.clear();
-  legs_.clear();
+  leg_ends_.clear();
   pending_.clear();
   free_.clear();
-  for (Ascent& ascent : ascents_) {
-    free_.push_back(&ascent);
+  if (has_zone_ramps_) {
+    for (ZoneAscent& ascent : zone_ascents_) {
+      free_.push_back(&ascent);
+    }
+  } else {
+    for (Ascent& ascent : ascents_) {
+      free_.push_back(&ascent);
+    }
   }
-  const RampLimits whole = ramp_of(0, zones_.size());
-  Ascent* up = ascent_from(start, Sense::kForward, 0, whole);
-  Ascent* down = ascent_from(end, Sense::kBackward, zones_.size() - 1, whole);
-  pending_.push_back({start, end, up, down, 0, zones_.size(), whole});
+  Rise* up = rise_from(start, Sense::kForward, 0);
+  Rise* down = rise_from(end, Sense::kBackward, zones_.size() - 1);
+  pending_.push_back({start, end, up, down, 0, zones_.size()});
   while (!pending_.empty()) {
     const Leg leg = pending_.back();
     pending_.pop_back();
@@ -93,24 +100,50 @@ bool Glide::plan_legs(const Anchor& start, const Anchor& end) {
   return true;
 }
 
-RampLimits Glide::ramp_of(std::size_t first, std::size_t last) const {
+RampLimits Glide::least_ramp() const {
   RampLimits least = ramp_;
-  for (std::size_t i = first; has_zone_ramps_ && i < last; ++i) {
-    least.acceleration = std::min(least.acceleration, zones_[i].acceleration);
-    least.jerk = std::min(least.jerk, zones_[i].jerk);
+  for (const LimitZone& zone : zones_) {
+    least.acceleration = std::min({least.acceleration, zone.acceleration, zone.deceleration});
+    least.jerk = std::min(least.jerk, zone.jerk);
   }
   return least;
 }
 
-Ascent* Glide::ascent_from(const Anchor& anchor, Sense sense, std::size_t zone,
-                           const RampLimits& ramp) {
-  if (free_.empty()) {
-    free_.push_back(&ascents_.emplace_back());
+Rise* Glide::rise_from(const Anchor& anchor, Sense sense, std::size_t zone) {
+  if (has_zone_ramps_) {
+    ZoneAscent* ascent =
+        free_.empty() ? &zone_ascents_.emplace_back() : static_cast<ZoneAscent*>(free_.back());
+    if (!free_.empty()) {
+      free_.pop_back();
+    }
+    ascent->start(zones_, zone, anchor, sense, ramp_, ceiling_);
+    return ascent;
   }
-  Ascent* ascent = free_.back();
-  free_.pop_back();
-  ascent->start(zones_, zone, anchor, sense, ramp, ceiling_);
+  Ascent* ascent = free_.empty() ? &ascents_.emplace_back() : static_cast<Ascent*>(free_.back());
+  if (!free_.empty()) {
+    free_.pop_back();
+  }
+  ascent->start(zones_, zone, anchor, sense, ramp_, ceiling_);
   return ascent;
+}
+
+/// Distance that a descent takes, without acceleration at its ends [mm].
+/// @param from   feedrate at its beginning [mm/s]
+/// @param s, v   its end
+/// @param sense  in which the rise from its end to its beginning goes
+/// @param zone   the first zone of that rise
+double Glide::way_down(double from, double s, double v, Sense sense, std::size_t zone) {
+  if (!has_zone_ramps_) {
+    return ramp_distance(from, v, ramp_);
+  }
+  Rise* rise = rise_from({s, v}, sense, zone);
+  while (!rise->is_complete() && rise->top() < from) {
+    rise->extend();
+  }
+  const double distance =
+      rise->top() < from ? std::numeric_limits<double>::infinity() : rise->exit_at(from).distance;
+  free_.push_back(rise);
+  return distance;
 }
 
 void Glide::release(const Leg& leg) {
@@ -124,7 +157,7 @@ bool Glide::plan_leg(Leg leg) {
   const double length = leg.b.s - leg.a.s;
   if (leg.up == nullptr) {
     phases_.push_back({length / leg.a.v, leg.a.s, leg.a.v, 0.0, 0.0});
-    legs_.push_back({leg.b.s, leg.b.v, ramp_of(leg.first, leg.last)});
+    leg_ends_.push_back(leg.b.s);
     return true;
   }
   if (length <= kPlaceRounding) {
@@ -138,7 +171,7 @@ bool Glide::plan_leg(Leg leg) {
       if (climb_.is_joined) {
         parts_.push_back({phases_.size(), phases_.size() + climb_.descent});
         phases_.insert(phases_.end(), climb_.phases.begin(), climb_.phases.end());
-        legs_.push_back({leg.b.s, leg.b.v, leg.ramp});
+        leg_ends_.push_back(leg.b.s);
         release(leg);
       }
       return climb_.is_joined;
@@ -170,8 +203,8 @@ void Glide::climb(const Leg& leg) {
     summit.length = summit.down.distance;
   }
   climb_.phases.clear();
-  climb_.descent = append_phases(summit, joined ? *leg.up : kNoAscent, *leg.down,
-                                 leg.b.s - summit.length, leg.ramp.jerk, climb_.phases);
+  const Rise& up = joined ? static_cast<const Rise&>(*leg.up) : kNoAscent;
+  climb_.descent = append_phases(summit, up, *leg.down, leg.b.s - summit.length, climb_.phases);
   climb_.turn = climb_.descent < climb_.phases.size() ? climb_.phases[climb_.descent].s : leg.b.s;
   climb_.peak = summit.v;
   climb_.is_joined = joined.has_value();
@@ -244,10 +277,12 @@ Glide::Resolution Glide::resolve(Leg& leg, const Violation& violation) {
   bool is_on_way_down = violation.enters;
   if (violation.enters && violation.leaves) {
     const double way_in =
-        v < leg.a.v ? ramp_distance(leg.a.v, v, leg.ramp) : leg.up->exit_at(v).distance;
+        v < leg.a.v ? way_down(leg.a.v, zone.begin, v, Sense::kBackward, violation.zone - 1)
+                    : leg.up->exit_at(v).distance;
     const bool has_in = way_in <= room_up + kPlaceRounding;
-    const double way_out =
-        v < leg.b.v ? ramp_distance(v, leg.b.v, leg.ramp) : leg.down->exit_at(v).distance;
+    const double way_out = v < leg.b.v
+                               ? way_down(leg.b.v, zone.end, v, Sense::kForward, violation.zone + 1)
+                               : leg.down->exit_at(v).distance;
     const bool has_out = way_out <= room_down + kPlaceRounding;
     if (has_in && has_out) {
       split(leg, violation.zone);
@@ -274,22 +309,15 @@ void Glide::split(const Leg& leg, std::size_t index) {
   const bool is_place = zone.end - zone.begin <= kPlaceRounding;
   const Anchor in{zone.begin, zone.limit};
   const Anchor out{is_place ? zone.begin : zone.end, zone.limit};
-  Leg left{leg.a, in, leg.up, nullptr, leg.first, index, leg.ramp};
-  Leg right{out, leg.b, nullptr, leg.down, index + 1, leg.last, leg.ramp};
+  Leg left{leg.a, in, leg.up, nullptr, leg.first, index};
+  Leg right{out, leg.b, nullptr, leg.down, index + 1, leg.last};
   left.cap = right.cap = leg.cap;
-  if (has_zone_ramps_) {
-    left.ramp = ramp_of(left.first, left.last);
-    right.ramp = ramp_of(right.first, right.last);
-    release(leg);
-    left.up = ascent_from(leg.a, Sense::kForward, left.first, left.ramp);
-    right.down = ascent_from(leg.b, Sense::kBackward, right.last - 1, right.ramp);
-  }
-  left.down = ascent_from(in, Sense::kBackward, index - 1, left.ramp);
-  right.up = ascent_from(out, Sense::kForward, index + 1, right.ramp);
+  left.down = rise_from(in, Sense::kBackward, index - 1);
+  right.up = rise_from(out, Sense::kForward, index + 1);
   // Legs are pushed last first, so that they are planned in path order.
   pending_.push_back(right);
   if (!is_place) {
-    pending_.push_back({in, out, nullptr, nullptr, index, index + 1, leg.ramp});
+    pending_.push_back({in, out, nullptr, nullptr, index, index + 1});
   }
   pending_.push_back(left);
 }

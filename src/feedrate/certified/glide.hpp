@@ -10,6 +10,7 @@
 
 #include "feedrate/certified/ascent.hpp"
 #include "feedrate/certified/summit.hpp"
+#include "feedrate/certified/zone_ascent.hpp"
 #include "feedrate/limits/zones.hpp"
 
 namespace twin::feedrate {
@@ -37,24 +38,14 @@ namespace twin::feedrate {
 /// limit is kept once stays so. Zones that are treated later have higher limits than every anchor,
 /// so anchors can always be reached, and from rest there is always a plan.
 ///
-/// That holds with one acceleration and one jerk for all zones. Where zones have their own, the legs
-/// beside a valley may be faster than the summit before they were split off, and may then not keep a
-/// zone that it kept. Such a zone is treated as any other. Where its limit is too low for an anchor
-/// that is there already, the whole is planned again with the least acceleration and jerk of all
-/// zones.
+/// Where zones have their own acceleration and jerk the rises are ZoneAscents. Should no plan be
+/// found for them, the whole is planned once more with the least acceleration and jerk of all zones.
 class Glide {
  public:
   /// One summit of the result.
   struct Part {
     std::size_t first;    ///< index of its first phase in phases()
     std::size_t descent;  ///< index of the first phase of its descent
-  };
-
-  /// One leg of the result.
-  struct LegEnd {
-    double s;         ///< place of its end [mm]
-    double v;         ///< feedrate there [mm/s]
-    RampLimits ramp;  ///< the phases of the leg are within
   };
 
   /// Plans from start to end over zones that cover [start.s, end.s] in ascending order.
@@ -67,18 +58,19 @@ class Glide {
   /// The planned motion in path order, and the summits that it consists of.
   const std::vector<Phase>& phases() const noexcept { return phases_; }
   const std::vector<Part>& parts() const noexcept { return parts_; }
-  /// The legs in path order.
-  const std::vector<LegEnd>& legs() const noexcept { return legs_; }
+  /// The places where the legs end, in path order [mm].
+  const std::vector<double>& leg_ends() const noexcept { return leg_ends_; }
+  /// Whether the least acceleration and jerk of all zones had to do for all of them.
+  bool is_even() const noexcept { return is_even_; }
 
  private:
   struct Leg {
     Anchor a;
     Anchor b;
-    Ascent* up;         // from a; null where the feedrate is constant from a to b
-    Ascent* down;       // backward from b; null as above
+    Rise* up;           // from a; null where the feedrate is constant from a to b
+    Rise* down;         // backward from b; null as above
     std::size_t first;  // zones [first, last) lie between a and b
     std::size_t last;
-    RampLimits ramp;
     double cap = std::numeric_limits<double>::infinity();
   };
   /// The summit of the leg that is being planned.
@@ -96,9 +88,10 @@ class Glide {
   };
   enum class Resolution : std::uint8_t { kSplit, kLowered, kImpossible };
 
-  Ascent* ascent_from(const Anchor& anchor, Sense sense, std::size_t zone, const RampLimits& ramp);
+  Rise* rise_from(const Anchor& anchor, Sense sense, std::size_t zone);
   void release(const Leg& leg);
-  RampLimits ramp_of(std::size_t first, std::size_t last) const;
+  RampLimits least_ramp() const;
+  double way_down(double from, double s, double v, Sense sense, std::size_t zone);
   bool plan_legs(const Anchor& start, const Anchor& end);
   bool plan_leg(Leg leg);
   void climb(const Leg& leg);
@@ -113,13 +106,15 @@ class Glide {
   RampLimits ramp_{};
   bool has_zone_ramps_ = false;
   double ceiling_ = 0.0;
+  bool is_even_ = false;
   std::deque<Ascent> ascents_;
-  std::vector<Ascent*> free_;
+  std::deque<ZoneAscent> zone_ascents_;
+  std::vector<Rise*> free_;  // of the kind that is in use
   std::vector<Leg> pending_;
   Climb climb_;
   std::vector<Phase> phases_;
   std::vector<Part> parts_;
-  std::vector<LegEnd> legs_;
+  std::vector<double> leg_ends_;
 };
 
 }  // namespace twin::feedrate

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "feedrate/tolerances.hpp"
@@ -25,6 +26,50 @@ constexpr std::size_t kMostSegments = 16384;
 constexpr std::size_t kFewestZones = 1024;
 
 bool is_level(const Phase& phase) { return phase.a == 0.0; }
+
+/// Whether a zone is a single place that limits the jerk beside it.
+bool is_calm_place(const LimitZone& zone) {
+  return zone.begin == zone.end && std::isfinite(zone.jerk);
+}
+
+bool has_calm_places(std::span<const LimitZone> zones) {
+  return std::any_of(zones.begin(), zones.end(), is_calm_place);
+}
+
+/// Zones with the jerk of such places within a distance of them.
+std::vector<LimitZone> calmed(std::span<const LimitZone> zones, double reach) {
+  std::vector<LimitZone> places;
+  std::copy_if(zones.begin(), zones.end(), std::back_inserter(places), is_calm_place);
+  std::vector<LimitZone> result;
+  std::size_t first = 0;  // place that still reaches beyond the zone's begin
+  for (LimitZone zone : zones) {
+    const double end = zone.end;
+    while (first < places.size() && places[first].begin + reach <= zone.begin) {
+      ++first;
+    }
+    for (double begin = zone.begin; begin < end; begin = zone.end) {
+      LimitZone part = zone;
+      part.begin = begin;
+      part.end = end;
+      for (std::size_t i = first; i < places.size() && places[i].begin - reach < end; ++i) {
+        const double from = places[i].begin - reach;
+        const double to = places[i].begin + reach;
+        if (from > begin + kPlaceRounding) {
+          part.end = std::min(part.end, from);
+        } else if (to > begin + kPlaceRounding) {
+          part.end = std::min(part.end, to);
+          part.jerk = std::min(part.jerk, places[i].jerk);
+        }
+      }
+      result.push_back(part);
+      zone.end = part.end;
+    }
+    if (zone.begin == end) {
+      result.push_back(zone);
+    }
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -49,7 +94,7 @@ void GlidePlanner::advance(Window& window, double horizon, Tail tail) {
   fastest_ = 0.0;
   for (const LimitZone& zone : window.zones) {
     fastest_ = std::max(fastest_, zone.limit);
-    least_.acceleration = std::min(least_.acceleration, zone.acceleration);
+    least_.acceleration = std::min({least_.acceleration, zone.acceleration, zone.deceleration});
     least_.jerk = std::min(least_.jerk, zone.jerk);
   }
   while (!plan_until(window.zones, window.start, horizon)) {  // each turn takes a way out less
@@ -73,8 +118,8 @@ void GlidePlanner::forget(double distance) {
   for (Phase& phase : plan_) {
     phase.s -= distance;
   }
-  for (Glide::LegEnd& leg : legs_) {
-    leg.s -= distance;
+  for (Piece& piece : pieces_) {
+    piece.end -= distance;
   }
 }
 
@@ -86,12 +131,63 @@ bool GlidePlanner::plan_until(std::span<const LimitZone> zones, const Anchor& st
   const auto to = std::partition_point(from, zones.end(), [&](const LimitZone& zone) {
     return zone.begin < horizon - kPlaceRounding;
   });
-  if (!glide_.plan({from, to}, start, {horizon, 0.0}, ramp_)) {
+  std::span<const LimitZone> planned(from, to);
+  if (has_calm_places(planned)) {
+    calmed_ = calmed(planned, corner_reach_);
+    planned = calmed_;
+  }
+  if (!glide_.plan(planned, start, {horizon, 0.0}, ramp_)) {
     return false;
   }
   plan_ = glide_.phases();
-  legs_ = glide_.legs();
+  fallbacks_ += glide_.is_even() ? 1 : 0;
+  if (ramps_ == Ramps::kOfZones) {
+    find_pieces(planned);
+  }
   return true;
+}
+
+/// Divides the plan where its legs end, and where the zones' acceleration or jerk changes.
+void GlidePlanner::find_pieces(std::span<const LimitZone> zones) {
+  pieces_.clear();
+  const auto& legs = glide_.leg_ends();
+  std::size_t leg = 0;
+  std::size_t phase = 0;
+  const double begin = plan_.empty() ? 0.0 : plan_.front().s;
+  double last = begin;
+  const auto add = [&](double end, const RampLimits& ramp) {
+    if (end <= last + kPlaceRounding || plan_.empty()) {
+      return;
+    }
+    while (phase + 1 < plan_.size() && plan_[phase + 1].s <= end) {
+      ++phase;
+    }
+    const Phase& there = plan_[phase];
+    const PathMotion at = motion_at(there, std::min(time_at(there, end), there.duration));
+    pieces_.push_back({end, at.v, at.a, ramp});
+    last = end;
+  };
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    const RampLimits ramp{std::min(zones[i].deceleration, ramp_.acceleration),
+                          std::min(zones[i].jerk, ramp_.jerk), ramp_.profile};
+    for (; leg < legs.size() && legs[leg] < zones[i].end - kPlaceRounding; ++leg) {
+      add(legs[leg], ramp);
+      if (!pieces_.empty() && pieces_.back().end == legs[leg]) {
+        pieces_.back().a = 0.0;
+      }
+    }
+    const bool ends_leg = leg < legs.size() && legs[leg] <= zones[i].end + kPlaceRounding;
+    const bool is_same = i + 1 < zones.size() && zones[i + 1].end > zones[i + 1].begin &&
+                         zones[i + 1].deceleration == zones[i].deceleration &&
+                         zones[i + 1].jerk == zones[i].jerk;
+    if ((is_same && !ends_leg) || zones[i].end <= zones[i].begin) {
+      continue;
+    }
+    add(ends_leg ? legs[leg] : zones[i].end, ramp);
+    if (ends_leg && !pieces_.empty()) {
+      pieces_.back().a = 0.0;
+    }
+  }
 }
 
 /// From rest, with the lowest limits of all zones everywhere, a plan always exists.
@@ -103,7 +199,8 @@ void GlidePlanner::plan_evenly(const Window& window, double horizon) {
     lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
   }
   for (LimitZone& zone : even) {
-    zone = {zone.begin, zone.end, std::min(zone.limit, lowest), least_.acceleration, least_.jerk};
+    zone = {zone.begin,          zone.end,   std::min(zone.limit, lowest), least_.acceleration,
+            least_.acceleration, least_.jerk};
   }
   [[maybe_unused]] const bool is_planned = plan_until(even, window.start, horizon);
   assert(is_planned);
@@ -130,19 +227,39 @@ bool GlidePlanner::fall_back(Window& window, double horizon, Tail tail) {
 /// larger number where it takes more than `most`.
 double GlidePlanner::descent_to(const Window& window, std::size_t zone, double v, double most) {
   const LimitZone& valley = window.zones[zone];
-  probe_.start(window.zones, zone - 1, {valley.begin, valley.limit}, Sense::kBackward, least_,
+  const auto probe = [&](auto& rise) {
+    rise.start(window.zones, zone - 1, {valley.begin, valley.limit}, Sense::kBackward, ramp_,
                std::max(fastest_, v));
-  while (!probe_.is_complete() && probe_.top() < v && probe_.reached() <= most) {
-    probe_.extend();
+    while (!rise.is_complete() && rise.top() < v && rise.reached() <= most) {
+      rise.extend();
+    }
+    return rise.top() < v ? std::numeric_limits<double>::infinity() : rise.exit_at(v).distance;
+  };
+  return ramps_ == Ramps::kOfZones ? probe(zone_probe_) : probe(probe_);
+}
+
+/// Distance before the horizon within which a feedrate can be lowered to any other [mm]. Of the zones
+/// before the horizon as many count as that takes.
+double GlidePlanner::descent_at(const Window& window, double horizon, double v) const {
+  RampLimits least = ramp_;
+  double distance = longest_descent(v, v, least);
+  for (std::size_t i = window.zones.size(); ramps_ == Ramps::kOfZones && i-- > 0;) {
+    const LimitZone& zone = window.zones[i];
+    if (zone.end <= horizon - distance) {
+      break;
+    }
+    least.acceleration = std::min(least.acceleration, zone.deceleration);
+    least.jerk = std::min(least.jerk, zone.jerk);
+    distance = longest_descent(v, v, least);
   }
-  return probe_.top() < v ? std::numeric_limits<double>::infinity() : probe_.exit_at(v).distance;
+  return distance;
 }
 
 /// How far a hold may go on and still leave room to come down [mm]: to each valley of the limits
 /// before the horizon, and to any feedrate at all at the horizon, both without acceleration. It is
 /// negative where the hold is too far on already.
 double GlidePlanner::room_after(const Window& window, const Anchor& anchor, double horizon) {
-  double room = horizon - anchor.s - longest_descent(anchor.v, anchor.v, least_);
+  double room = horizon - anchor.s - descent_at(window, horizon, anchor.v);
   const auto& zones = window.zones;
   const auto from = std::partition_point(zones.begin(), zones.end(), [&](const LimitZone& zone) {
     return zone.end <= anchor.s + kPlaceRounding;
@@ -207,46 +324,48 @@ void GlidePlanner::commit(Window& window, const Cut& cut) {
   }
 }
 
-/// Hands on the legs up to the window's start, for stops.
+/// Hands on the pieces up to the window's start, for stops.
 void GlidePlanner::commit_stretches(Window& window) {
   const Anchor& start = window.start;
   std::size_t done = 0;
-  for (; done < legs_.size() && legs_[done].s <= start.s + kPlaceRounding; ++done) {
-    const Glide::LegEnd& leg = legs_[done];
-    window.stretches.push_back({.end = leg.s,
-                                .ramp = leg.ramp,
-                                .is_harder_after = is_harder_after(done, start.s),
-                                .rest = rest_after(done + 1, {leg.s, leg.v, 0.0})});
+  for (; done < pieces_.size() && pieces_[done].end <= start.s + kPlaceRounding; ++done) {
+    const Piece& piece = pieces_[done];
+    Stretch stretch = stretch_of(done, start.s);
+    stretch.rest = rest_after(done + 1, {piece.end, piece.v, std::min(piece.a, 0.0)});
+    window.stretches.push_back(stretch);
   }
-  legs_.erase(legs_.begin(), legs_.begin() + static_cast<std::ptrdiff_t>(done));
+  pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(done));
   const double last = window.stretches.empty() ? 0.0 : window.stretches.back().end;
-  if (!legs_.empty() && start.s > last + kPlaceRounding) {
+  if (!pieces_.empty() && start.s > last + kPlaceRounding) {
     window.stretches.push_back({.end = start.s,
-                                .ramp = legs_.front().ramp,
-                                .is_harder_after = false,
+                                .ramp = pieces_.front().ramp,
+                                .v = start.v,
                                 .rest = rest_after(0, {start.s, start.v, 0.0})});
   }
 }
 
-/// Whether a stop may take the deceleration of a leg on to the next one: that one allows it, and is
-/// long enough for it to be lost up to its end, or up to where it is final.
-bool GlidePlanner::is_harder_after(std::size_t leg, double last) const {
-  if (leg + 1 >= legs_.size()) {
-    return false;
+/// A piece as a stretch of which the plan is known up to a place.
+Stretch GlidePlanner::stretch_of(std::size_t piece, double last) const {
+  const Piece& here = pieces_[piece];
+  Stretch stretch{.end = here.end, .ramp = here.ramp, .v = here.v};
+  if (here.a < 0.0 && here.v > 0.0) {
+    stretch.fall = -here.a / (here.v * here.v);
   }
-  const Glide::LegEnd& here = legs_[leg];
-  const Glide::LegEnd& next = legs_[leg + 1];
-  return next.ramp.acceleration >= here.ramp.acceleration && next.ramp.jerk >= here.ramp.jerk &&
-         std::min(next.s, last) - here.s >= here.v * here.ramp.acceleration / next.ramp.jerk;
+  if (piece + 1 < pieces_.size() && here.v > 0.0) {
+    // A stop may take its deceleration on to the next piece, where that one allows it and is long
+    // enough for it to be lost.
+    const Piece& next = pieces_[piece + 1];
+    stretch.is_harder_after =
+        next.ramp.acceleration >= here.ramp.acceleration && next.ramp.jerk >= here.ramp.jerk &&
+        std::min(next.end, last) - here.end >= here.v * here.ramp.acceleration / next.ramp.jerk;
+  }
+  return stretch;
 }
 
-/// Where a stop rests that begins on a leg without acceleration [mm].
-double GlidePlanner::rest_after(std::size_t leg, PathMotion from) const {
-  for (; leg < legs_.size(); ++leg) {
-    const StopPart part =
-        make_stop_part(from, {.end = legs_[leg].s,
-                              .ramp = legs_[leg].ramp,
-                              .is_harder_after = is_harder_after(leg, legs_.back().s)});
+/// Where a stop rests that begins on a piece [mm].
+double GlidePlanner::rest_after(std::size_t piece, PathMotion from) const {
+  for (; piece < pieces_.size(); ++piece) {
+    const StopPart part = make_stop_part(from, stretch_of(piece, pieces_.back().end));
     from = end_of(part.brake);
     if (part.rests) {
       break;

@@ -44,6 +44,15 @@ class GlidePlanner final : public WindowPlanner {
     std::size_t zones = 1;
   };
 
+  /// A part of the plan within one acceleration and jerk, on which the feedrate rises once and falls
+  /// once at most.
+  struct Piece {
+    double end;       // [mm]
+    double v;         // of the plan there [mm/s]
+    double a;         // the same [mm/s^2]
+    RampLimits ramp;  // that every place of it allows
+  };
+
   /// A place of the plan.
   struct Cut {
     std::size_t phase;  // index of the phase
@@ -54,14 +63,16 @@ class GlidePlanner final : public WindowPlanner {
   bool plan_until(std::span<const LimitZone> zones, const Anchor& start, double horizon);
   void plan_evenly(const Window& window, double horizon);
   bool fall_back(Window& window, double horizon, Tail tail);
+  void find_pieces(std::span<const LimitZone> zones);
   double descent_to(const Window& window, std::size_t zone, double v, double most);
+  double descent_at(const Window& window, double horizon, double v) const;
   double room_after(const Window& window, const Anchor& anchor, double horizon);
   Cut last_final(const Window& window, double horizon);
   Cut next_level() const;
   void commit(Window& window, const Cut& cut);
   void commit_stretches(Window& window);
-  bool is_harder_after(std::size_t leg, double last) const;
-  double rest_after(std::size_t leg, PathMotion from) const;
+  Stretch stretch_of(std::size_t piece, double last) const;
+  double rest_after(std::size_t piece, PathMotion from) const;
 
   RampLimits ramp_;
   Ramps ramps_;
@@ -71,8 +82,10 @@ class GlidePlanner final : public WindowPlanner {
   double fastest_ = 0.0;  // limit of all of them [mm/s]
   Glide glide_;
   Ascent probe_;
-  std::vector<Phase> plan_;          // last plan from the start to rest
-  std::vector<Glide::LegEnd> legs_;  // of plan_
+  ZoneAscent zone_probe_;
+  std::vector<LimitZone> calmed_;  // zones of a plan, where places limit the jerk beside them
+  std::vector<Phase> plan_;        // last plan from the start to rest
+  std::vector<Piece> pieces_;      // of plan_, where zones have ramps of their own
 };
 
 }  // namespace twin::feedrate

@@ -7,18 +7,7 @@
 #include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
-namespace {
-
-void append(std::vector<Phase>& phases, PathMotion& at, double duration, double jerk) {
-  if (duration > 0.0) {
-    phases.push_back({duration, at.s, at.v, at.a, jerk});
-    at = motion_at(phases.back(), duration);
-  }
-}
-
-}  // namespace
-
-std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_least, double cap) {
+std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap) {
   Summit summit;
   const auto room_at = [&](double v) {
     summit.up = up.exit_at(v);
@@ -27,12 +16,17 @@ std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_lea
   };
   summit.length = length;
   while (true) {
-    Ascent& lower = up.top() < down.top() ? up : down;
+    Rise& lower = up.top() < down.top() ? up : down;
     const double v = lower.top();
     if (lower.is_complete() || v >= cap || (v >= v_least && room_at(v) <= 0.0)) {
       break;
     }
+    const std::size_t phases = lower.phases().size();
+    const double reached = lower.reached();
     lower.extend();
+    if (lower.phases().size() == phases && lower.reached() <= reached && lower.top() <= v) {
+      break;  // rounding leaves nothing that it could be extended by
+    }
   }
   double high = std::min({up.top(), down.top(), cap});
   if (high < v_least) {
@@ -57,24 +51,25 @@ std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_lea
   return room_at(summit.v) >= 0.0 ? std::optional(summit) : std::nullopt;
 }
 
-std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& down, double s0,
-                          double jerk, std::vector<Phase>& phases) {
+std::size_t append_phases(const Summit& summit, const Rise& up, const Rise& down, double s0,
+                          std::vector<Phase>& phases) {
   for (std::size_t i = 0; i < summit.up.phase && i < up.phases().size(); ++i) {
     phases.push_back(up.phases()[i]);
     phases.back().s += s0;
   }
-  PathMotion at = summit.up.at;
-  at.s += s0;
   if (summit.up.phase < up.phases().size() && summit.up.time > 0.0) {
     phases.push_back(up.phases()[summit.up.phase]);
     phases.back().s += s0;
     phases.back().duration = summit.up.time;
   }
-  append(phases, at, at.a / jerk, -jerk);
+  const std::size_t leaving = phases.size();
+  up.append_way_out(summit.up, phases);
+  for (std::size_t i = leaving; i < phases.size(); ++i) {
+    phases[i].s += s0;
+  }
   const double room = summit.length - summit.up.distance - summit.down.distance;
-  at = {s0 + summit.up.distance, summit.v, 0.0};
-  if (summit.v > 0.0) {
-    append(phases, at, room / summit.v, 0.0);
+  if (summit.v > 0.0 && room / summit.v > 0.0) {
+    phases.push_back({room / summit.v, s0 + summit.up.distance, summit.v, 0.0, 0.0});
   }
   const std::size_t descent = phases.size();
   const double end = s0 + summit.length;
@@ -84,9 +79,13 @@ std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& 
       phases.push_back({time, end - last.s, last.v, -last.a, phase.j});
     }
   };
-  const Phase leave{summit.down.at.a / jerk, summit.down.at.s, summit.down.at.v, summit.down.at.a,
-                    -jerk};
-  mirrored(leave, leave.duration);
+  down.append_way_out(summit.down, phases);
+  std::reverse(phases.begin() + static_cast<std::ptrdiff_t>(descent), phases.end());
+  for (std::size_t i = descent; i < phases.size(); ++i) {
+    const Phase& phase = phases[i];
+    const PathMotion last = motion_at(phase, phase.duration);
+    phases[i] = {phase.duration, end - last.s, last.v, -last.a, phase.j};
+  }
   if (summit.down.phase < down.phases().size()) {
     mirrored(down.phases()[summit.down.phase], summit.down.time);
   }

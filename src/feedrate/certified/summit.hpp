@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "feedrate/certified/ascent.hpp"
+#include "feedrate/certified/rise.hpp"
 
 namespace twin::feedrate {
 
@@ -22,8 +22,8 @@ namespace twin::feedrate {
 /// highest v for which both have room is the root of one equation of one unknown.
 struct Summit {
   double v = 0.0;       ///< highest feedrate [mm/s]
-  Ascent::Exit up{};    ///< from the ascent
-  Ascent::Exit down{};  ///< from the backward ascent
+  Rise::Exit up{};      ///< from the ascent
+  Rise::Exit down{};    ///< from the backward ascent
   double length = 0.0;  ///< from anchor to anchor [mm]
 };
 
@@ -32,11 +32,11 @@ struct Summit {
 /// @param v_least  the higher of the two anchors' feedrates [mm/s]
 /// @param cap      highest feedrate, >= v_least [mm/s]
 /// @returns nothing where not even v_least leaves room
-std::optional<Summit> join(Ascent& up, Ascent& down, double length, double v_least, double cap);
+std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap);
 
-/// Appends the phases of a summit that begins at s0. The jerk is stretched by rounding alone.
+/// Appends the phases of a summit that begins at s0.
 /// @returns index of the first phase of the descent
-std::size_t append_phases(const Summit& summit, const Ascent& up, const Ascent& down, double s0,
-                          double jerk, std::vector<Phase>& phases);
+std::size_t append_phases(const Summit& summit, const Rise& up, const Rise& down, double s0,
+                          std::vector<Phase>& phases);
 
 }  // namespace twin::feedrate

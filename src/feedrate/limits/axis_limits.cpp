@@ -6,12 +6,55 @@
 namespace twin::feedrate {
 namespace {
 
-/// Shares of an axis's acceleration and jerk that the feedrate may use in bends. More makes bends
-/// faster and the ramps beside them slower, for the tangential motion gets what is left.
+/// Share of an axis's acceleration that the feedrate may use in bends. More makes bends faster and
+/// the ramps beside them slower, for the tangential motion gets what is left.
 constexpr double kNormalShare = 0.75;
-constexpr double kTwistShare = 0.5;
+
+/// Share of an axis's jerk for what bends need of it, on an axis square to the path, and how much
+/// less of it on an axis along the path. More makes bends faster, and leaves less jerk for ramps.
+constexpr double kBendShare = 0.95;
+constexpr double kBendShareAlong = 0.4;
+
+/// Share of that for the feedrate alone, in bends that last and in brief ones. The rest is for the
+/// acceleration that adds to it.
+constexpr double kTwistShare = 0.8;
+constexpr double kBriefTwistShare = 0.97;
+
+/// Tangential acceleration that is left in bends, over that of a ramp from rest to the feedrate of
+/// the place with jerk alone, and the share of an axis's jerk that it may use. A larger acceleration
+/// makes bends slower, and the ramps in them faster.
+constexpr double kRampShare = 0.1;
+constexpr double kRampJerkShare = 0.25;
 
 constexpr double kTiny = 1e-12;  // derivative that is none, so that nothing is divided by it
+
+/// Jerk of an axis for what bends need of it [mm/s^3].
+double bend_jerk(double along, double jerk) noexcept {
+  return (kBendShare - kBendShareAlong * along) * jerk;
+}
+
+/// Lowers the feedrate of a zone for one axis.
+void keep_feedrate(const PathBounds& path, int axis, const Limits& limits, BendKind bend,
+                   LimitZone& zone) noexcept {
+  const double t = path.tangent[axis];
+  const double k = path.curvature[axis];
+  const double twist = path.twist[axis];
+  if (limits.axis_feedrate[axis] > 0.0 && t > kTiny) {
+    zone.limit = std::min(zone.limit, limits.axis_feedrate[axis] / t);
+  }
+  if (limits.axis_acceleration[axis] > 0.0 && k > kTiny) {
+    zone.limit = std::min(zone.limit, std::sqrt(kNormalShare * limits.axis_acceleration[axis] / k));
+  }
+  const double jerk = limits.axis_jerk[axis];
+  if (jerk > 0.0 && twist > kTiny) {
+    const double share = bend == BendKind::kBrief ? kBriefTwistShare : kTwistShare;
+    zone.limit = std::min(zone.limit, std::cbrt(share * bend_jerk(t, jerk) / twist));
+  }
+  if (jerk > 0.0 && k > kTiny) {  // 3 k v a <= share of J, with a = kRampShare sqrt(J v)
+    const double root = std::cbrt(kRampJerkShare * std::sqrt(jerk) / (3.0 * kRampShare * k));
+    zone.limit = std::min(zone.limit, root * root);
+  }
+}
 
 }  // namespace
 
@@ -20,41 +63,45 @@ bool has_axis_limits(const Limits& limits) noexcept {
          (limits.axis_acceleration.array() > 0.0).any() || (limits.axis_jerk.array() > 0.0).any();
 }
 
-void keep_axis_limits(const PathBounds& path, const Limits& limits, LimitZone& zone) noexcept {
+void keep_axis_limits(const PathBounds& path, const Limits& limits, BendKind bend,
+                      LimitZone& zone) noexcept {
   for (int i = 0; i < 3; ++i) {
-    const double t = path.tangent[i];
-    const double k = path.curvature[i];
-    const double twist = path.twist[i];
-    if (limits.axis_feedrate[i] > 0.0 && t > kTiny) {
-      zone.limit = std::min(zone.limit, limits.axis_feedrate[i] / t);
-    }
-    if (limits.axis_acceleration[i] > 0.0 && k > kTiny) {
-      zone.limit = std::min(zone.limit, std::sqrt(kNormalShare * limits.axis_acceleration[i] / k));
-    }
-    if (limits.axis_jerk[i] > 0.0 && twist > kTiny) {
-      zone.limit = std::min(zone.limit, std::cbrt(kTwistShare * limits.axis_jerk[i] / twist));
-    }
+    keep_feedrate(path, i, limits, bend, zone);
   }
   const double v = zone.limit;
   for (int i = 0; i < 3; ++i) {
     const double t = path.tangent[i];
     const double k = path.curvature[i];
-    const double a_max = limits.axis_acceleration[i];
-    if (a_max > 0.0 && t > kTiny) {
-      zone.acceleration = std::min(zone.acceleration, (a_max - k * v * v) / t);
+    const double most = limits.axis_acceleration[i];
+    if (most > 0.0 && t > kTiny) {
+      const double rest = (most - k * v * v) / t;
+      zone.acceleration = std::min(zone.acceleration, rest);
+      zone.deceleration = std::min(zone.deceleration, rest);
     }
-    const double rest = limits.axis_jerk[i] - path.twist[i] * v * v * v;
     if (limits.axis_jerk[i] > 0.0 && k > kTiny) {
-      zone.acceleration = std::min(zone.acceleration, 0.5 * rest / (3.0 * k * v));
+      const double share = bend_jerk(t, limits.axis_jerk[i]);
+      const double rest = share - path.twist[i] * v * v * v;
+      const double speeding_up = (path.trend[i] < 0.0 ? share : rest) / (3.0 * k * v);
+      const double braking = (path.trend[i] > 0.0 ? share : rest) / (3.0 * k * v);
+      zone.acceleration = std::min(zone.acceleration, speeding_up);
+      zone.deceleration = std::min(zone.deceleration, braking);
     }
   }
   for (int i = 0; i < 3; ++i) {
-    if (limits.axis_jerk[i] > 0.0 && path.tangent[i] > kTiny) {
-      const double a = std::isfinite(zone.acceleration) ? zone.acceleration : 0.0;
-      const double used = 3.0 * path.curvature[i] * v * std::min(a, limits.acceleration) +
-                          path.twist[i] * v * v * v;
-      zone.jerk = std::min(zone.jerk, (limits.axis_jerk[i] - used) / path.tangent[i]);
+    if (!(limits.axis_jerk[i] > 0.0 && path.tangent[i] > kTiny)) {
+      continue;
     }
+    const auto used_with = [&](double a, bool adds) {  // of the axis's jerk
+      const double part = 3.0 * path.curvature[i] * v * std::min(a, limits.acceleration);
+      const double twist = path.twist[i] * v * v * v;
+      return adds ? part + twist : std::max(part, twist);
+    };
+    // Without any part across the path no acceleration is limited, and none uses up jerk.
+    const double used = path.curvature[i] > kTiny
+                            ? std::max(used_with(zone.acceleration, path.trend[i] >= 0.0),
+                                       used_with(zone.deceleration, path.trend[i] <= 0.0))
+                            : path.twist[i] * v * v * v;
+    zone.jerk = std::min(zone.jerk, (limits.axis_jerk[i] - used) / path.tangent[i]);
   }
 }
 

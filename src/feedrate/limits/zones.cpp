@@ -9,6 +9,10 @@ namespace {
 /// a zone, and with twice the difference about half as many zones are planned.
 constexpr double kSameLimit = 1.01;
 
+/// A peak of curvature between samples counts where it is this much higher than the next sample.
+/// Curves whose curvature is smooth have lower ones.
+constexpr double kSharpPeak = 1.02;
+
 /// Places of an arc outside the XY plane at which the rule is asked, where it depends on the
 /// heading: every 2 degrees of a circle. Twice as many follow the heading twice as closely.
 constexpr std::size_t kArcSamples = 181;
@@ -28,6 +32,27 @@ void append_sampled(std::size_t count, double s0, const PlaceOf& place, const Li
   }
 }
 
+/// Curvature at a sample, or beside it where three samples show a peak between them that is more
+/// than kSharpPeak higher: that of the parabola through them [1/mm].
+double peak_curvature(const std::vector<geometry::CurvatureSample>& samples, std::size_t i) {
+  const double here = samples[i].curvature;
+  if (i == 0 || i + 1 == samples.size() || here < samples[i - 1].curvature ||
+      here < samples[i + 1].curvature) {
+    return here;
+  }
+  const double before = samples[i].s - samples[i - 1].s;
+  const double after = samples[i + 1].s - samples[i].s;
+  if (!(before > 0.0 && after > 0.0)) {
+    return here;
+  }
+  const double rise = (here - samples[i - 1].curvature) / before;
+  const double fall = (samples[i + 1].curvature - here) / after;
+  const double slope = (rise * after + fall * before) / (before + after);
+  const double bend = (rise - fall) / (before + after);
+  const double peak = bend > 0.0 ? here + slope * slope / (4.0 * bend) : here;
+  return peak > kSharpPeak * here ? peak : here;
+}
+
 void append_curve_limits(const path::FittedCurve& curve, double feedrate, double s0,
                          const FeedrateRules& rules, std::vector<LimitZone>& zones) {
   const bool needs_turning = rules.needs_turning();
@@ -37,7 +62,7 @@ void append_curve_limits(const path::FittedCurve& curve, double feedrate, double
         const geometry::CurvatureSample& sample = curve.curvature[i];
         const LocalGeometry at =
             needs_turning ? local_geometry(path::point_from(curve.curve.derivatives(sample.u)))
-                          : LocalGeometry{sample.curvature};
+                          : LocalGeometry{peak_curvature(curve.curvature, i)};
         return rules.limit_at(at, feedrate, On::kCurve);
       },
       zones);
@@ -63,24 +88,24 @@ bool is_tilted(const path::Arc& arc) {
 
 }  // namespace
 
+bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept {
+  return a.acceleration == b.acceleration && a.deceleration == b.deceleration && a.jerk == b.jerk;
+}
+
 void ZoneRow::append(const LimitZone& zone) {
   if (!is_empty()) {
     LimitZone& before = zones_.back();
     const double low = std::min(before.limit, zone.limit);
-    if (std::max(highest_, zone.limit) <= kSameLimit * low) {
+    if (std::max(highest_, zone.limit) <= kSameLimit * low && has_same_ramp(before, zone)) {
       highest_ = std::max(highest_, zone.limit);
       before.limit = low;
       before.end = zone.end;
-      before.acceleration = std::min(before.acceleration, zone.acceleration);
-      before.jerk = std::min(before.jerk, zone.jerk);
       return;
     }
   }
   highest_ = zone.limit;
   zones_.push_back(zone);
 }
-
-void ZoneRow::lower_last(double limit) noexcept { highest_ = zones_.back().limit = limit; }
 
 void append_segment_limits(const path::Segment& segment, double s0, double feedrate,
                            const FeedrateRules& rules, std::vector<LimitZone>& zones) {

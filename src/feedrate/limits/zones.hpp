@@ -15,11 +15,16 @@ struct LimitZone {
   double end = 0.0;                                               ///< >= begin [mm]
   double limit = 0.0;                                             ///< [mm/s]
   double acceleration = std::numeric_limits<double>::infinity();  ///< tangential [mm/s^2]
+  double deceleration = std::numeric_limits<double>::infinity();  ///< the same where a < 0 [mm/s^2]
   double jerk = std::numeric_limits<double>::infinity();          ///< tangential [mm/s^3]
 };
 
+/// Whether two zones allow the same tangential acceleration and jerk.
+bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept;
+
 /// Appends the zones of one segment, one after the other. Neighbours whose limits differ by less
-/// than 1 % become one zone, which has the lowest limit of all of them.
+/// than 1 %, and which allow the same ramps, become one zone, which has the lowest limit of all of
+/// them.
 class ZoneRow {
  public:
   /// @param zones  the list to append to; its present zones are not changed
@@ -29,10 +34,6 @@ class ZoneRow {
   void append(const LimitZone& zone);
 
   bool is_empty() const noexcept { return zones_.size() == first_; }
-  LimitZone& last() noexcept { return zones_.back(); }
-
-  /// Lowers the limit of the last zone. @param limit  [mm/s]
-  void lower_last(double limit) noexcept;
 
  private:
   std::vector<LimitZone>& zones_;

@@ -127,14 +127,14 @@ void KnotMarcher::march(const KnownRun& run) {
   }
   double width = 0.0;
   double spans = 0.0;  // that divide what is left; infinite: it is not divided yet
-  while (true) {
+  while (true) {       // halves, so it ends at the shortest span at the latest
     width = longest;
     spans = std::numeric_limits<double>::infinity();
     if (left <= kAhead * longest) {
       spans = std::max(std::ceil(left / longest - 1e-9), last() == 0 ? 2.0 : 1.0);
       width = left / spans;
     }
-    const double rest = width <= kShortestSpan ? 0.0 : residual(width, run.stretch);
+    const double rest = width > kShortestSpan ? residual(width, run.stretch) : 0.0;
     if (rest <= 1.0) {
       schedule_growth(rest);
       break;

@@ -61,6 +61,8 @@ class Interpolator {
   bool has_started() const noexcept { return clock_.has_started(); }
   /// Where the motion is in its plan. The motion must have started.
   PlanPlace place() const noexcept { return clock_.place(); }
+  /// The motion along the path: s from the start of the segment. The motion must have started.
+  feedrate::PathMotion motion() const noexcept { return clock_.instant().motion; }
   /// Number of the plan that the present segment belongs to.
   std::int64_t plan() const noexcept { return clock_.plan(); }
   /// Number of the plan by which the path goes on: the armed or adopted one, else the present one.

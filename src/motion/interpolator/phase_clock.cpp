@@ -8,9 +8,9 @@
 namespace twin::motion {
 namespace {
 
-/// Zones that a stop nearby may pass. It bounds the work of one period; twice as many would let few
-/// more stops be short.
-constexpr int kZonesNearby = 16;
+/// Stretches that a stop nearby may pass. It bounds the work of one period; twice as many would let
+/// few more stops be short.
+constexpr int kStretchesNearby = 32;
 
 }  // namespace
 
@@ -232,38 +232,41 @@ void PhaseClock::begin_stop_part(const feedrate::PathMotion& from) noexcept {
 feedrate::StopPart PhaseClock::stop_part(const feedrate::PathMotion& from,
                                          const feedrate::RampLimits& limits) const noexcept {
   const feedrate::Stretch stretch = stretch_at(from.s, limits);
-  if (const auto brake = stop_nearby(from, stretch, limits)) {
-    return {*brake, true};
+  const feedrate::StopPart part = feedrate::make_stop_part(from, stretch);
+  if (part.rests || current_->stretches.empty()) {
+    return part;
   }
-  return feedrate::make_stop_part(from, stretch);
+  const auto brake = stop_nearby(from, stretch, limits);
+  return brake ? feedrate::StopPart{*brake, true} : part;
 }
 
-/// A stop that rests within the next zones of the segment and the stretch. These may allow more
-/// acceleration and jerk than the plan uses on the whole stretch. So such a stop is shorter, and
-/// all the more it is nowhere faster than the plan.
+/// A stop that rests beyond the stretch, on one of the next ones of the segment, with the least
+/// acceleration and jerk of those that it passes. It has no acceleration to lose and is nowhere
+/// faster than the plan, since the plan is not slower at either end of each of them.
 std::optional<feedrate::Brake> PhaseClock::stop_nearby(
     const feedrate::PathMotion& from, const feedrate::Stretch& stretch,
     const feedrate::RampLimits& limits) const noexcept {
-  if (current_->stretches.empty()) {
+  const auto& stretches = current_->stretches;
+  if (from.a > 0.0) {
     return std::nullopt;
   }
-  const auto& zones = current_->limits;
-  auto zone = std::ranges::partition_point(zones, [&](const feedrate::LimitZone& candidate) {
-    return candidate.end <= from.s + feedrate::kPlaceRounding;
+  feedrate::RampLimits ramp = stretch.ramp;
+  auto next = std::ranges::find_if(stretches, [&](const feedrate::Stretch& candidate) {
+    return candidate.end > from.s + feedrate::kPlaceRounding;
   });
-  const double last = std::min(stretch.end, current_->segment.length);
-  feedrate::RampLimits ramp = limits;
-  for (int i = 0; i < kZonesNearby && zone != zones.end(); ++i, ++zone) {
-    ramp.acceleration = std::min(ramp.acceleration, zone->acceleration);
-    ramp.jerk = std::min(ramp.jerk, zone->jerk);
-    if (i > 0 && from.a < 0.0 && from.a * from.a > 2.0 * ramp.jerk * from.v) {
-      break;  // with so little jerk the deceleration at hand would be lost too late
+  const double last = std::min(current_->segment.length,
+                               armed_ ? armed_->distance - passed_ : current_->segment.length);
+  for (int i = 0; i < kStretchesNearby && next != stretches.end(); ++i, ++next) {
+    ramp.acceleration = std::min({ramp.acceleration, next->ramp.acceleration, limits.acceleration});
+    ramp.jerk = std::min({ramp.jerk, next->ramp.jerk, limits.jerk});
+    if (next->v < from.v || -from.a > ramp.acceleration || !feedrate::can_rest(from, ramp.jerk)) {
+      break;
     }
     const feedrate::Brake brake = feedrate::make_brake(from, ramp);
-    if (from.s + brake.distance <= std::min(zone->end, last) + feedrate::kRestRounding) {
+    if (from.s + brake.distance <= std::min(next->end, last) + feedrate::kRestRounding) {
       return brake;
     }
-    if (zone->end >= last) {
+    if (next->end >= last) {
       break;
     }
   }
@@ -288,6 +291,7 @@ feedrate::Stretch PhaseClock::stretch_at(double s,
   stretch.ramp.jerk = std::min(stretch.ramp.jerk, limits.jerk);
   if (armed_ && armed_->distance - passed_ < stretch.end) {
     stretch.end = armed_->distance - passed_;
+    stretch.fall = 0.0;
     stretch.is_harder_after = false;
   }
   return stretch;

@@ -99,14 +99,15 @@ Reaction reaction_to(Kind kind) noexcept {
   }
 }
 
-std::string describe(const Trip& trip) {
+std::string describe(const Trip& trip, const std::string& advice_instead) {
   const std::string axis = trip.axis == kNoAxis ? "" : fmt::format("axis {}: ", "xy?z"[trip.axis]);
   const std::string place = trip.line == 0
                                 ? "before the first set point"
                                 : fmt::format("at t = {:.3f} s, NC line {}", trip.time, trip.line);
   const std::string_view done =
       is_immediate(trip) ? "0 V and servo off at once" : "stopped on the path";
-  return fmt::format("{}{}, {}; {}; {}", axis, measure(trip), place, done, advice(trip.kind));
+  return fmt::format("{}{}, {}; {}; {}", axis, measure(trip), place, done,
+                     advice_instead.empty() ? advice(trip.kind) : advice_instead);
 }
 
 }  // namespace twin::motion

@@ -54,6 +54,7 @@ inline bool is_immediate(const Trip& trip) noexcept {
 
 /// One line that tells a person of a trip: axis, value with unit, limit, time, NC line, what was
 /// done and what to do. Not real-time safe.
-std::string describe(const Trip& trip);
+/// @param advice_instead  what to do, where more is known of the trip than its kind
+std::string describe(const Trip& trip, const std::string& advice_instead = {});
 
 }  // namespace twin::motion

@@ -23,6 +23,7 @@ namespace twin::pictures {
 namespace {
 
 constexpr std::size_t kMaxRows = 12000;  // of a figure's data
+constexpr double kRmsTime = 0.1;         // of the moving root mean square [s]
 
 /// Fields of a record: first the columns that are read from the trace, those of a plan in front;
 /// then what is derived.
@@ -41,6 +42,7 @@ enum Field : std::size_t {
   kJerk,
   kErrorX,
   kErrorY,
+  kRms,
   kFields
 };
 constexpr std::size_t kPlanInputs = kFeedrate + 1;
@@ -58,7 +60,8 @@ constexpr std::array<std::string_view, kFields> kFieldNames{"t_s",
                                                             "acceleration_mm_per_s2",
                                                             "jerk_mm_per_s3",
                                                             "x_error_um",
-                                                            "y_error_um"};
+                                                            "y_error_um",
+                                                            "contour_error_rms_um"};
 
 using Record = std::array<double, kFields>;
 
@@ -107,9 +110,9 @@ std::vector<FigureTable> tables_of(bool plan_only) {
     tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kZ});
     return tables;
   }
-  tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kZ, kEncX, kEncY});
+  tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kZ, kEncX, kEncY, kRms});
   tables.emplace_back("contour_magnified", std::vector<std::size_t>{kX, kY, kZ, kErrorX, kErrorY});
-  tables.emplace_back("contour_error", std::vector<std::size_t>{kT, kContour});
+  tables.emplace_back("contour_error", std::vector<std::size_t>{kT, kContour, kRms});
   tables.emplace_back("tracking_errors", std::vector<std::size_t>{kT, kTrackX, kTrackY});
   return tables;
 }
@@ -170,6 +173,11 @@ class Stream {
       record[kErrorY] = units::um_from_mm(error.y());
       summary_.largest_error_um =
           std::max(summary_.largest_error_um, units::um_from_mm(error.norm()));
+      record[kRms] = rms_of(record[kT], record[kContour]);
+      if (record[kContour] > summary_.worst_um && record[kZ] <= results::kPenUp) {
+        summary_.worst_um = record[kContour];
+        summary_.worst_at = {record[kEncX], record[kEncY]};
+      }
     }
     low_ = low_.cwiseMin(here);
     high_ = high_.cwiseMax(here);
@@ -181,9 +189,22 @@ class Stream {
     pending_.pop_front();
   }
 
+  /// Root mean square of an error over the last kRmsTime.
+  double rms_of(double t, double error) {
+    squares_.push_back({t, error * error});
+    sum_ += error * error;
+    while (squares_.front()[0] < t - kRmsTime) {
+      sum_ -= squares_.front()[1];
+      squares_.pop_front();
+    }
+    return std::sqrt(std::max(sum_, 0.0) / static_cast<double>(squares_.size()));
+  }
+
   bool plan_only_;
   std::vector<FigureTable> tables_;
-  std::deque<Record> pending_;  // records whose motion is not known yet
+  std::deque<std::array<double, 2>> squares_;  // time and square, of the last kRmsTime
+  double sum_ = 0.0;                           // of the squares
+  std::deque<Record> pending_;                 // records whose motion is not known yet
   std::optional<MotionFilter> motion_;
   Record last_{};  // the record before pending_.front()
   DataSummary summary_;

@@ -10,11 +10,15 @@ namespace twin::pictures {
 
 /// What the scripts must know of the data before they can be written.
 struct DataSummary {
-  Vec2 extent = Vec2::Zero();     ///< width and height of the path [mm]
-  double largest_error_um = 0.0;  ///< largest error square to the path, pen down [um]
-  bool has_limit = false;         ///< feedrate_limit.csv is there
-  bool has_pen_up = false;        ///< the pen is lifted at some set points
-  bool has_programmed = false;    ///< contour_programmed.csv was written
+  Vec2 extent = Vec2::Zero();       ///< width and height of the path [mm]
+  double largest_error_um = 0.0;    ///< largest error square to the path, pen down [um]
+  Vec2 worst_at = Vec2::Zero();     ///< measured place of the largest contour error, pen down [mm]
+  double worst_um = 0.0;            ///< that error, 0: none [um]
+  double acceleration_limit = 0.0;  ///< 0: not known [mm/s^2]
+  double jerk_limit = 0.0;          ///< 0: not known [mm/s^3]
+  bool has_limit = false;           ///< feedrate_limit.csv is there
+  bool has_pen_up = false;          ///< the pen is lifted at some set points
+  bool has_programmed = false;      ///< contour_programmed.csv was written
 };
 
 /// Reads a trace once and writes the data of all figures, thinned, into the folder of the plots.

@@ -27,11 +27,13 @@ void remove_timing(const fs::path& folder) {
 struct RunOrigin {
   bool is_simulated = false;  ///< a machine moved, but no metal; false when nothing is known
   double period = 0.0;        ///< [s]; 0 when nothing is known
+  double acceleration = 0.0;  ///< its limit [mm/s^2]; 0 when nothing is known
+  double jerk = 0.0;          ///< its limit [mm/s^3]; 0 when nothing is known
 };
 
-/// Reads it from a folder of results; a file that is missing or is none says nothing.
-RunOrigin read_run_origin(const fs::path& directory) {
-  std::ifstream in(directory / "summary.json");
+/// Reads it from a summary; a file that is missing or is none says nothing.
+RunOrigin read_run_origin(const fs::path& summary) {
+  std::ifstream in(summary);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   RunOrigin origin;
   if (!json.is_object()) {
@@ -44,6 +46,15 @@ RunOrigin read_run_origin(const fs::path& directory) {
   if (period != json.end() && period->is_number()) {
     origin.period = period->get<double>();
   }
+  const auto limit = [&json](const char* key) {
+    const nlohmann::json none;
+    const auto value = json.value(nlohmann::json::json_pointer("/settings/limits"), none);
+    return value.is_object() && value.contains(key) && value[key].is_number()
+               ? value[key].get<double>()
+               : 0.0;
+  };
+  origin.acceleration = limit("acceleration_mm_per_s2");
+  origin.jerk = limit("jerk_mm_per_s3");
   return origin;
 }
 
@@ -64,9 +75,13 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   if (error) {
     return file_error(folder, "create", error.value());
   }
-  TWIN_TRY(const DataSummary data, write_figure_data(input.directory / results::kTraceName, folder,
-                                                     input.programmed, input.plan_only));
-  const RunOrigin origin = read_run_origin(input.directory);
+  TWIN_TRY(DataSummary data, write_figure_data(input.directory / input.trace, folder,
+                                               input.programmed, input.plan_only));
+  const RunOrigin origin = read_run_origin(
+      input.directory /
+      (input.trace == results::kPartialTraceName ? "summary.partial.json" : "summary.json"));
+  data.acceleration_limit = origin.acceleration;
+  data.jerk_limit = origin.jerk;
   const std::string title = title_of(input.title, origin);
   std::vector<Script> scripts = figure_scripts(title, data, input.plan_only);
   if (fs::exists(folder / results::kTimingName)) {

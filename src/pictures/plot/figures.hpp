@@ -11,11 +11,12 @@ namespace twin::pictures {
 
 /// What the figures of one run are made from.
 struct FigureInput {
-  std::filesystem::path directory;  ///< holds trace.csv; the figures go to its folder plots
+  std::filesystem::path directory;  ///< holds the trace; the figures go to its folder plots
   std::string title;                ///< above every figure, as in "dolphin.nc, 3000 mm/min"
   /// The programmed path as a polyline: arcs are sampled, and NaN lifts the line [mm]. May be empty.
   std::vector<Vec2> programmed = {};
   bool plan_only = false;  ///< the trace has no machine in it, so only the command is drawn
+  std::string trace = "trace.csv";  ///< name of the trace
 };
 
 /// Draws the figures of a run as PNG and SVG, in the manner of Figs. 12 to 19 of the paper.

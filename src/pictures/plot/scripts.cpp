@@ -21,8 +21,8 @@ constexpr int kHeight = 900;
 constexpr double kSvgScale = 2.0 / 3.0;
 
 /// Height of a picture [pixels] at which a path of this shape leaves no empty strip.
-int path_height(const Vec2& extent) {
-  constexpr double axes = 1000.0;   // width of the plot [pixels]
+/// @param axes  width of the plot [pixels]
+int path_height(const Vec2& extent, double axes = 1000.0) {
   constexpr double border = 250.0;  // title, legend and labels [pixels]
   constexpr double least = 600.0;
   const double wanted = border + axes * 1.12 * extent.y() / std::max(extent.x(), 1e-6);
@@ -46,8 +46,11 @@ Script script(const std::string& name, const std::string& settings, const std::s
       "set style line 1 linecolor rgb '{1}' linewidth 1.5\n"
       "set style line 2 linecolor rgb '{2}' linewidth 1.5\n"
       "set style line 3 linecolor rgb '{3}' linewidth 1.5\n"
-      "set style line 4 linecolor rgb '{4}' linewidth 4\n"
-      "set style line 6 linecolor rgb '#E69F00' linewidth 3.5\n"
+      "set style line 4 linecolor rgb '{4}' linewidth 3\n"
+      "set style line 6 linecolor rgb '#E69F00' linewidth 1.2\n"
+      "set style line 7 linecolor rgb '#9CC7E4' linewidth 0.7\n"
+      "set style line 8 linecolor rgb '#202020' linewidth 1.8\n"
+      "set style line 9 linecolor rgb '#D55E00' linewidth 0.8 dashtype 2\n"
       "set style line 5 linecolor rgb '{4}' linewidth 1 dashtype 3\n"
       "set key at screen 0.5, screen {5:.4f} center center horizontal Left reverse samplen 2 width "
       "2\n"
@@ -160,16 +163,25 @@ Script feedrate_script(const std::string& title, const DataSummary& data) {
   return script("feedrate", settings, drawing);
 }
 
-Script acceleration_script(const std::string& title) {
+/// A limit either way as thin lines; empty where it is not known.
+std::string limit_lines(double limit) {
+  return limit > 0.0
+             ? fmt::format(", {0:g} with lines linestyle 9, -{0:g} with lines linestyle 9", limit)
+             : std::string();
+}
+
+Script acceleration_script(const std::string& title, const DataSummary& data) {
   const std::string settings = "unset key\n";
   return script("acceleration_jerk", settings,
                 two_panels(title,
                            "set ylabel \"tangential\\nacceleration [mm/s²]\"\n"
                            "  plot 'acceleration_jerk.csv' using 't_s':'acceleration_mm_per_s2' "
-                           "with lines linestyle 1 linewidth 1",
+                           "with lines linestyle 1 linewidth 1" +
+                               limit_lines(data.acceleration_limit),
                            "set ylabel \"tangential\\njerk [10³ mm/s³]\"\n"
                            "  plot 'acceleration_jerk.csv' using 't_s':(column('jerk_mm_per_s3') / "
-                           "1000) with lines linestyle 3 linewidth 1"));
+                           "1000) with lines linestyle 3 linewidth 1" +
+                               limit_lines(data.jerk_limit / 1000.0)));
 }
 
 Script contour_error_script(const std::string& title) {
@@ -177,11 +189,12 @@ Script contour_error_script(const std::string& title) {
                                "set xlabel 'time [s]'\n"
                                "set ylabel 'contour error [µm]'\n"
                                "set yrange [0:*]\n"
-                               "unset key\n"
-                               "set tmargin at screen 0.91\n";
+                               "set offsets 0, 0, graph 0.04, 0\n";
   return script("contour_error", settings,
-                "  plot 'contour_error.csv' using 't_s':'contour_error_um' with lines linestyle 1 "
-                "linewidth 1\n");
+                "  plot 'contour_error.csv' using 't_s':'contour_error_um' with lines linestyle 7 "
+                "title 'contour error', \\\n"
+                "    '' using 't_s':'contour_error_rms_um' with lines linestyle 8 title "
+                "'RMS of the last 0.1 s'\n");
 }
 
 Script tracking_script(const std::string& title) {
@@ -196,17 +209,49 @@ Script tracking_script(const std::string& title) {
                            "lines linestyle 2 linewidth 1"));
 }
 
+/// Viridis, whose light end is left out: the paper is white.
+constexpr std::string_view kErrorColours =
+    "set palette defined (0 '#440154', 1 '#472C7A', 2 '#3B518B', 3 '#2C718E', 4 '#21908D', "
+    "5 '#27AD81', 6 '#5CC863', 7 '#AADC32')\n"
+    "set cbrange [0:*]\n"
+    "set cblabel 'contour error, RMS [µm]'\n"
+    "set colorbox noborder\n";
+
+/// A ring about the largest contour error, whose value is in the key.
+std::string worst_mark(const DataSummary& data) {
+  return data.worst_um > 0.0
+             ? fmt::format(
+                   "set label 2 '' at first {:.6f}, first {:.6f} point pointtype 6 pointsize 2.2 "
+                   "linewidth 2 linecolor rgb '{}' front\n",
+                   data.worst_at.x(), data.worst_at.y(), kVermilion)
+             : std::string();
+}
+
+std::string worst_key(const DataSummary& data) {
+  return data.worst_um > 0.0
+             ? fmt::format(
+                   ", \\\n    NaN with points pointtype 6 pointsize 2.2 linewidth 2 linecolor rgb "
+                   "'{}' title 'largest {:.1f} µm'",
+                   kVermilion, data.worst_um)
+             : std::string();
+}
+
 Script contour_script(const std::string& title, const DataSummary& data, bool plan_only) {
-  const int height = path_height(data.extent);
-  const std::string settings =
-      set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
+  constexpr double kBesideColours = 845.0;  // width of the plot beside the colour box [pixels]
+  const int height =
+      plan_only ? path_height(data.extent) : path_height(data.extent, kBesideColours);
+  std::string settings = set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
   std::string drawing = "  plot " + background(data) +
                         "'contour.csv' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines "
-                        "linestyle 1 title 'command'";
+                        "linestyle 1 " +
+                        (plan_only ? "title 'command'" : "notitle");
   if (!plan_only) {
+    settings += std::string(kErrorColours) + worst_mark(data);
     drawing +=
-        ", \\\n    '' using (down(column('x_enc_mm'))):'y_enc_mm' with lines linestyle 2 "
-        "dashtype 2 title 'measured'";
+        ", \\\n    '' using (down(column('x_enc_mm'))):'y_enc_mm':'contour_error_rms_um' with "
+        "lines "
+        "linewidth 3 palette title 'measured'" +
+        worst_key(data);
   }
   return script("contour", settings, drawing + "\n", height);
 }
@@ -250,7 +295,7 @@ double magnification(double extent, double largest_error_um) {
 std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
                                    bool plan_only) {
   std::vector<Script> scripts{contour_script(title, data, plan_only), feedrate_script(title, data),
-                              acceleration_script(title)};
+                              acceleration_script(title, data)};
   if (!plan_only) {
     scripts.push_back(magnified_script(title, data));
     scripts.push_back(contour_error_script(title));

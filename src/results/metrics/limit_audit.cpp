@@ -9,7 +9,18 @@ namespace {
 constexpr double kSmallDoubt = 0.05;  // of the limit
 constexpr double kGentleBend = 0.5;   // up to here the mean over a bend follows the series [rad]
 
-void raise(double& peak, double value) noexcept { peak = std::max(peak, std::abs(value)); }
+// Set points from the latest one back to the middle of what is judged. The step completed last ends
+// at set point n - 2, and along_path() judges those about its window's middle.
+constexpr std::int64_t kOfFeedrate = 2;
+constexpr std::int64_t kOfNormal = 3;
+constexpr std::int64_t kAlongPath = 26;
+
+void raise(double& peak, std::int64_t& where, double value, std::int64_t now) noexcept {
+  if (std::abs(value) > peak) {
+    peak = std::abs(value);
+    where = std::max<std::int64_t>(now, 0);
+  }
+}
 
 }  // namespace
 
@@ -24,14 +35,17 @@ void LimitAudit::add(const Vec3& point) noexcept {
   }
   std::rotate(points_.begin(), points_.end() - 1, points_.end());
   points_[0] = point;
+  ++latest_;
   judge_axes();
 
   std::copy(steps_.begin() + 1, steps_.end(), steps_.begin());
   steps_.back() = arc_steps_.push(point);
   judge_normal(steps_[kWindow - 2], steps_[kWindow - 1]);
-  raise(peaks_.feedrate, steps_.back().arc / period_);
-  raise(peaks_.tangential_acceleration, along_path(2, acceleration_limit_));
-  raise(peaks_.tangential_jerk, along_path(3, jerk_limit_));
+  raise(peaks_.feedrate, where_.feedrate, steps_.back().arc / period_, latest_ - kOfFeedrate);
+  raise(peaks_.tangential_acceleration, where_.tangential_acceleration,
+        along_path(2, acceleration_limit_), latest_ - kAlongPath);
+  raise(peaks_.tangential_jerk, where_.tangential_jerk, along_path(3, jerk_limit_),
+        latest_ - kAlongPath);
 }
 
 const AuditPeaks& LimitAudit::finish() noexcept {
@@ -51,9 +65,10 @@ void LimitAudit::judge_axes() noexcept {
   const Vec3 jerk = (p[0] - p[3] - 3.0 * (p[1] - p[2])) / (period_ * period_ * period_);
   for (Eigen::Index i = 0; i < 3; ++i) {
     AxisPeaks& axis = peaks_.axis[static_cast<std::size_t>(i)];
-    raise(axis.velocity, velocity[i]);
-    raise(axis.acceleration, acceleration[i]);
-    raise(axis.jerk, jerk[i]);
+    OfEachAxisPeak<std::int64_t>& where = where_.axis[static_cast<std::size_t>(i)];
+    raise(axis.velocity, where.velocity, velocity[i], latest_);
+    raise(axis.acceleration, where.acceleration, acceleration[i], latest_ - 1);
+    raise(axis.jerk, where.jerk, jerk[i], latest_ - 1);
   }
 }
 
@@ -65,7 +80,8 @@ void LimitAudit::judge_normal(const Step& before, const Step& after) noexcept {
   const Vec3 tangent = length > 0.0 ? Vec3(chord / length) : Vec3(Vec3::Zero());
   const double normal = (acceleration - acceleration.dot(tangent) * tangent).norm();
   const double x = std::max(before.bend, after.bend);
-  raise(peaks_.normal_acceleration, x < kGentleBend ? normal * (1.0 + x * x / 12.0) : normal);
+  raise(peaks_.normal_acceleration, where_.normal_acceleration,
+        x < kGentleBend ? normal * (1.0 + x * x / 12.0) : normal, latest_ - kOfNormal);
 }
 
 double LimitAudit::along_path(std::size_t order, double limit) const noexcept {

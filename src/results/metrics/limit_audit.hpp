@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/limits.hpp"
 #include "core/vec.hpp"
@@ -9,21 +10,41 @@
 
 namespace twin::results {
 
-/// Peaks of one axis.
-struct AxisPeaks {
-  double velocity = 0.0;      ///< [mm/s]
-  double acceleration = 0.0;  ///< [mm/s^2]
-  double jerk = 0.0;          ///< [mm/s^3]
+/// Something of each quantity that the audit judges of one axis.
+template <class T>
+struct OfEachAxisPeak {
+  T velocity{};      ///< [mm/s]
+  T acceleration{};  ///< [mm/s^2]
+  T jerk{};          ///< [mm/s^3]
 };
 
-/// Largest absolute values over a trajectory.
-struct AuditPeaks {
-  double feedrate = 0.0;                 ///< [mm/s]
-  double tangential_acceleration = 0.0;  ///< [mm/s^2]
-  double tangential_jerk = 0.0;          ///< [mm/s^3]
-  double normal_acceleration = 0.0;      ///< [mm/s^2]
-  std::array<AxisPeaks, 3> axis;         ///< x, y, z
+/// Something of each quantity that the audit judges.
+template <class T>
+struct OfEachPeak {
+  T feedrate{};                             ///< [mm/s]
+  T tangential_acceleration{};              ///< [mm/s^2]
+  T tangential_jerk{};                      ///< [mm/s^3]
+  T normal_acceleration{};                  ///< [mm/s^2]
+  std::array<OfEachAxisPeak<T>, 3> axis{};  ///< x, y, z
 };
+
+/// Calls a function with the members of some OfEachPeak that belong to the same quantity.
+template <class Call, class... Peaks>
+constexpr void for_each_peak(Call&& call, Peaks&... peaks) {
+  call(peaks.feedrate...);
+  call(peaks.tangential_acceleration...);
+  call(peaks.tangential_jerk...);
+  call(peaks.normal_acceleration...);
+  for (std::size_t i = 0; i < 3; ++i) {
+    call(peaks.axis[i].velocity...);
+    call(peaks.axis[i].acceleration...);
+    call(peaks.axis[i].jerk...);
+  }
+}
+
+/// Largest absolute values over a trajectory.
+using AxisPeaks = OfEachAxisPeak<double>;
+using AuditPeaks = OfEachPeak<double>;
 
 /// Computes the peaks of feedrate, acceleration and jerk of a trajectory from its set points alone,
 /// as they arrive and in constant memory.
@@ -62,8 +83,16 @@ class LimitAudit {
   /// Peaks so far; after finish() those of the whole trajectory.
   const AuditPeaks& peaks() const noexcept { return peaks_; }
 
+  /// Number of the set point, from 0, about which each peak was found. A difference of several set
+  /// points counts for the one in its middle. At most kOldest set points before the latest when it
+  /// changes. After finish() a number may be beyond the last set point.
+  const OfEachPeak<std::int64_t>& where() const noexcept { return where_; }
+
   /// Ends the trajectory, with the machine at rest after the last set point, and returns the peaks.
   const AuditPeaks& finish() noexcept;
+
+  /// Set points from the latest one back to the oldest that where() can name anew.
+  static constexpr std::int64_t kOldest = 32;
 
  private:
   static constexpr std::size_t kLargestScale = 16;
@@ -82,6 +111,8 @@ class LimitAudit {
   ArcSteps arc_steps_;
   std::array<Step, kWindow> steps_{};  // oldest first
   AuditPeaks peaks_;
+  std::int64_t latest_ = -1;  // number of the latest set point
+  OfEachPeak<std::int64_t> where_;
 };
 
 }  // namespace twin::results

@@ -9,13 +9,15 @@
 #include "core/limits.hpp"
 #include "core/setting.hpp"
 #include "results/metrics/limit_audit.hpp"
+#include "results/metrics/place.hpp"
 
 namespace twin::results {
 
 /// Largest value and root mean square of an error.
 struct ErrorStats {
-  double max = 0.0;  ///< [mm]
-  double rms = 0.0;  ///< [mm]
+  double max = 0.0;           ///< [mm]
+  double rms = 0.0;           ///< [mm]
+  std::optional<Place> at{};  ///< where the largest one was
 };
 
 /// Largest value and root mean square of a relative error [-]; 0.01 is 1 %.
@@ -79,6 +81,34 @@ struct OverrideRecord {
   double from = 0.0;      ///< time at which it takes effect; for a hold the begin of braking [s]
 };
 
+/// Errors of the machine in the cutting motion, as those of the whole run in MachineResults.
+struct CuttingErrors {
+  ErrorStats contour_error;
+  ErrorStats table_contour_error;
+  std::array<ErrorStats, 2> tracking_error;  ///< x, y
+};
+
+/// Figures of the cutting motion alone: without rapids, and without motion with the pen up where the
+/// program ever lowers it.
+struct CuttingStats {
+  double time = 0.0;  ///< [s]
+  ErrorStats command_contour_error;
+  std::optional<CuttingErrors> run;  ///< nothing for a plan
+};
+
+/// How a run ended that did not come to the end of its program.
+struct EarlyEnd {
+  std::string reason;       ///< the message of its error
+  std::optional<Place> at;  ///< the last set point; nothing if there was none
+};
+
+/// Position loop of an axis by the model of the machine file, without friction.
+struct LoopFigures {
+  double bandwidth_Hz = 0.0;      ///< where the closed loop falls to -3 dB
+  double phase_margin_deg = 0.0;  ///< [deg]
+  double gain_margin = 0.0;       ///< factor of the gain at which the loop oscillates [-]
+};
+
 /// Results that only a run on a machine has.
 struct MachineResults {
   double machining_time = 0.0;               ///< from the first set point to the last sample [s]
@@ -105,13 +135,21 @@ struct Summary {
   double compression_factor = 0.0;       ///< number of short blocks per fitted curve [-]
   double path_length = 0.0;              ///< [mm]
   double planned_time = 0.0;             ///< time of motion without override, by the plan [s]
+  std::int64_t plan_fallbacks = 0;       ///< times that no plan within all limits was found [-]
   std::optional<double> time_bound;      ///< lower bound of planned_time, if asked for [s]
   std::optional<double> planning_time;   ///< wall-clock time of planning, if measured [s]
   std::vector<OverrideRecord> overrides;
   ErrorStats command_contour_error;  ///< set points against programmed path
   ShareStats feedrate_fluctuation;   ///< see FeedrateFluctuation
   AuditPeaks audit;
+  OfEachPeak<std::optional<Place>> audit_at;  ///< where the peaks were
+  std::optional<CuttingStats> cutting;        ///< nothing without any cutting motion
+  /// Where the run ended early. The figures are then of what was done: path_length is the length of
+  /// the way to there, and counts and times of the plan are not shown.
+  std::optional<EarlyEnd> early_end;
   std::optional<MachineResults> run;  ///< nothing for a plan
+  /// Position loops of x and y; nothing where the machine file's servo closes none.
+  std::optional<std::array<LoopFigures, 2>> loops;
 
   std::vector<std::string> notes;  ///< settings that were changed for the run, and why
   std::string version;             ///< version of twin that made the run, as in "0.9.0"

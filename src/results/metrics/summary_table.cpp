@@ -64,6 +64,49 @@ void add(TextTable& table, std::string_view name, std::string text) {
       {.row = std::string(name), .what = std::move(text), .cells = {}, .note = {}});
 }
 
+/// "26.870 um at line 2788, X-44.05 Y12.14, 22.763 s"
+std::string placed(const Summary& s, std::string_view key, const Place& place) {
+  return fmt::format("{} at line {}, X{:.2f} Y{:.2f}, {:.3f} s", with_unit(s, key), place.line,
+                     place.position.x(), place.position.y(), place.t);
+}
+
+/// Times of a run, and where its contour error was largest.
+void add_run(TextTable& table, const Summary& s) {
+  if (!s.overrides.empty()) {
+    add(table, "feed override", override_text(s.overrides));
+  }
+  if (s.run) {
+    add(table, "machining time",
+        fmt::format("{}, {} x real time", with_unit(s, "machining_time_s"),
+                    value(s, "real_time_factor")));
+    add(table, "computing time of cycle",
+        fmt::format("{} median, {} p99, {} max", with_unit(s, "cycle_time_p50_us"),
+                    with_unit(s, "cycle_time_p99_us"), with_unit(s, "cycle_time_max_us")));
+    if (const auto& worst = s.run->contour_error.at) {
+      add(table, "largest contour error", placed(s, "contour_error_max_um", *worst));
+    }
+  }
+  for (std::size_t i = 0; s.loops && i < s.loops->size(); ++i) {
+    const LoopFigures& loop = (*s.loops)[i];
+    add(table, fmt::format("position loop, {:c}", "xy"[i]),
+        fmt::format("bandwidth {:.1f} Hz, phase margin {:.1f} deg, gain margin {:.2f}",
+                    loop.bandwidth_Hz, loop.phase_margin_deg, loop.gain_margin));
+  }
+  for (const std::string& note : s.notes) {
+    add(table, "note", note);
+  }
+}
+
+/// What there is to say of a run that ended early.
+TextTable done_table(const Summary& s) {
+  TextTable table;
+  add(table, "ended early",
+      fmt::format("at line {}, {:.3f} s", s.early_end->at->line, s.early_end->at->t));
+  add(table, "path length until then", with_unit(s, "path_length_mm"));
+  add_run(table, s);
+  return table;
+}
+
 TextTable path_table(const Summary& s) {
   TextTable table;
   add(table, "blocks",
@@ -86,20 +129,13 @@ TextTable path_table(const Summary& s) {
                         with_unit(s, "time_bound_s"));
   }
   add(table, "planned time", time);
-  if (!s.overrides.empty()) {
-    add(table, "feed override", override_text(s.overrides));
+  if (s.plan_fallbacks > 0) {
+    add(table, "plan fallbacks",
+        fmt::format("{}: there is no plan within all limits, and a slower one or one that stops "
+                    "was taken",
+                    value(s, "plan_fallbacks")));
   }
-  if (s.run) {
-    add(table, "machining time",
-        fmt::format("{}, {} x real time", with_unit(s, "machining_time_s"),
-                    value(s, "real_time_factor")));
-    add(table, "cycle time",
-        fmt::format("{} median, {} p99, {} max", with_unit(s, "cycle_time_p50_us"),
-                    with_unit(s, "cycle_time_p99_us"), with_unit(s, "cycle_time_max_us")));
-  }
-  for (const std::string& note : s.notes) {
-    add(table, "note", note);
-  }
+  add_run(table, s);
   return table;
 }
 
@@ -137,6 +173,11 @@ std::string wall_clock_text(const Summary& s, const RealTimeStats& stats) {
   return to_text(times, kNumbers) + to_text(texts, kTexts);
 }
 
+/// Whether a part of the run is no cutting motion, so that figures without it say more.
+bool has_rapids(const Summary& s) {
+  return s.run && s.cutting && s.cutting->time < 0.99 * s.run->machining_time;
+}
+
 /// Peaks along the path beside their limits.
 TextTable peaks_table(const Summary& s, const Limits& limits) {
   TextTable table = statistics_table(s, Group::kPeaks);
@@ -153,12 +194,22 @@ TextTable peaks_table(const Summary& s, const Limits& limits) {
 }  // namespace
 
 std::string to_table(const Summary& summary, const Limits& limits) {
-  std::string text = title_of(summary) + "\n\n" + to_text(path_table(summary), kTexts) + "\n";
+  if (summary.early_end && !summary.early_end->at) {
+    return title_of(summary) + "\n\n  nothing moved\n";
+  }
+  std::string text =
+      title_of(summary) + "\n\n" +
+      to_text(summary.early_end ? done_table(summary) : path_table(summary), kTexts) + "\n";
   if (summary.run && summary.run->realtime) {
     text += wall_clock_text(summary, *summary.run->realtime) + "\n";
   }
-  return text + to_text(statistics_table(summary, Group::kErrors), kNumbers) + "\n" +
-         to_text(peaks_table(summary, limits), kNumbers);
+  TextTable errors = statistics_table(summary, Group::kErrors);
+  if (has_rapids(summary)) {
+    for (Line& line : statistics_table(summary, Group::kCutting).lines) {
+      errors.lines.push_back(std::move(line));
+    }
+  }
+  return text + to_text(errors, kNumbers) + "\n" + to_text(peaks_table(summary, limits), kNumbers);
 }
 
 }  // namespace twin::results

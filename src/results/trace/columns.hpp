@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
 #include "results/trace/sample.hpp"
 #include "twin/trace.hpp"
 
@@ -14,6 +16,7 @@ namespace twin::results {
 
 inline constexpr std::size_t kPlanColumns = 7;  ///< columns of a trace without a machine
 
+/// Columns that a trace has unless others are chosen.
 inline constexpr std::array<std::string_view, 16> kColumns{
     "t_s",                  // time since the first set point
     "segment",              // planned segment, counted from 0
@@ -32,6 +35,21 @@ inline constexpr std::array<std::string_view, 16> kColumns{
     "x_tracking_error_um",  // set point less encoder
     "y_tracking_error_um"};
 
+/// Columns that --columns adds.
+inline constexpr std::array<std::string_view, 12> kMoreColumns{
+    "path_mm",                          // way of the set points since the first one
+    "feedrate_limit_mm_per_s",          // limit in force at the set point; 0: none
+    "pen",                              // 1 with the pen down, 0 with it up
+    "rapid",                            // 1 on a rapid (G00), else 0
+    "command_contour_error_signed_um",  // positive left of the motion of the set point
+    "contour_error_signed_um",          // the same of the encoder's position
+    "table_contour_error_signed_um",    // the same of the table's true position
+    "interpolated",                     // 1: the period never began, measured values are made up
+    "x_torque_Nm",                      // of the motor; of a simulated table
+    "y_torque_Nm",                      //
+    "x_friction_N",                     // of the slide, positive against positive motion
+    "y_friction_N"};
+
 inline constexpr std::string_view kTraceName = "trace.csv";
 inline constexpr std::string_view kPartialTraceName = "trace.partial.csv";
 /// In the folder of the plots: histograms of the periods of a run on the wall clock.
@@ -46,14 +64,40 @@ inline constexpr double kPenUp = 0.1;
 /// Which columns a trace has.
 enum class Layout {
   kPlan,  ///< set points alone: the first kPlanColumns columns
-  kRun,   ///< all columns
+  kRun,   ///< all of kColumns
 };
 
-/// The columns of a layout. @param period interpolation period [s]
+/// Numbers of columns: places in kColumns, and behind those in kMoreColumns.
+using ColumnChoice = std::vector<std::size_t>;
+
+/// The columns of a layout.
+ColumnChoice columns_of(Layout layout);
+
+/// The columns that a text names, "t_s,x_cmd_mm,x_torque_Nm". The name "default" stands for the
+/// columns of the layout, "all" for all that the run can have.
+///
+/// @param has_forces  whether the machine tells torques and friction
+/// @returns the columns in the order of the text, or a kUsage error that names the unknown one
+Expected<ColumnChoice> choose_columns(std::string_view text, Layout layout, bool has_forces);
+
+/// The header of a trace. @param period  interpolation period [s]
+TraceHeader trace_header(const ColumnChoice& columns, double period);
 TraceHeader trace_header(Layout layout, double period);
 
+/// What is known of a sample besides what the cycle recorded. Signed errors are positive left of
+/// the motion of the set point.
+struct Deviations {
+  double contour_error = 0.0;         ///< distance of the encoder's position from the path [mm]
+  double signed_contour_error = 0.0;  ///< the same with its sign [mm]
+  double signed_table_error = 0.0;    ///< of the table's true position [mm]
+  double signed_command_error = 0.0;  ///< of the set point [mm]
+  double path_length = 0.0;           ///< way of the set points since the first one [mm]
+  bool is_rapid = false;              ///< the set point is on a rapid
+};
+
 /// Appends a sample to rows of a trace. Tracking errors are command less encoder.
-///
+void append_row(const Sample& sample, const Deviations& deviations, const ColumnChoice& columns,
+                std::vector<double>& rows);
 /// @param contour_error  distance of the encoder's position from the programmed path [mm], used by
 ///                       Layout::kRun
 void append_row(const Sample& sample, double contour_error, Layout layout,

@@ -18,6 +18,8 @@ struct Sample {
   Vec2 encoder = Vec2::Zero();   ///< what the encoder counts mean [mm]
   Vec2 table = Vec2::Zero();     ///< true position of the table, the encoder's if unknown [mm]
   Vec2 volts = Vec2::Zero();     ///< drive command [V]
+  Vec2 torque = Vec2::Zero();    ///< of the motors, 0 if unknown [N.m]
+  Vec2 friction = Vec2::Zero();  ///< of the slides against positive motion, 0 if unknown [N]
   double cycle_time = 0.0;       ///< wall-clock time of the cycle's computation [s]
   double wake_up_latency = 0.0;  ///< on the wall clock: begin of the period after its deadline [s]
   double total_time = 0.0;       ///< on the wall clock: from the deadline to the written output [s]

@@ -7,6 +7,7 @@
 #include "feedrate/bound/time_bound.hpp"
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
+#include "runtime/run_options.hpp"
 
 namespace twin::studies::compare {
 namespace {
@@ -88,7 +89,7 @@ class Clock {
 Expected<BoundedPlan> bounded_plan(const gcode::ProgramText& program,
                                    const config::MachineFile& machine,
                                    const std::optional<double>& feedrate, Profiles profiles) {
-  gcode::Reader reader(program, {.feedrate = feedrate});
+  gcode::Reader reader(program, runtime::reader_options(machine, feedrate));
   BoundedPlan result{.time_bound = 0.0, .planned = {3, {}}, .bound = {3, {}}};
   feedrate::TimeBound::Profile profile;
   double last_s = 0.0;

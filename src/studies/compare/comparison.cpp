@@ -10,6 +10,7 @@
 
 #include "gcode/reader.hpp"
 #include "runtime/planning.hpp"
+#include "runtime/run_options.hpp"
 
 namespace twin::studies::compare {
 namespace {
@@ -132,8 +133,7 @@ Expected<studies::jobs::Job> job_of(const Request& request, const gcode::Program
 }
 
 Expected<double> planning_time(const studies::jobs::Job& job) {
-  gcode::ReaderOptions options;
-  options.feedrate = job.feedrate;
+  const gcode::ReaderOptions options = runtime::reader_options(job.machine, job.feedrate);
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const auto start = std::chrono::steady_clock::now();

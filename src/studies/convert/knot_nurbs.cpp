@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "studies/convert/dialect.hpp"
@@ -10,6 +12,7 @@ namespace twin::studies::convert {
 namespace {
 
 constexpr int kWeightDecimals = 9;
+constexpr double kWholeDomain = 1e7;  // least last knot of those that are made whole
 
 }  // namespace
 
@@ -21,8 +24,9 @@ Expected<CurveCounts> KnotNurbs::write_curve(const CurveRequest& request, std::s
                                              "largest degree is {}",
                                              curve.degree(), control(), most_rank() - 1));
   }
+  const double scale = knot_scale(curve);
   const auto knot = [&](std::size_t i) {
-    return number((curve.knots()[i] - curve.u_min()) * knot_scale(), knot_decimals());
+    return number((curve.knots()[i] - curve.u_min()) * scale, knot_decimals());
   };
   const std::vector<Vec3>& points = curve.control_points();
   std::string z;
@@ -32,17 +36,27 @@ Expected<CurveCounts> KnotNurbs::write_curve(const CurveRequest& request, std::s
     const std::string z_word = here == z ? "" : " Z" + here;
     z = std::move(here);
     fmt::format_to(out, "{}K{} X{} Y{}{} R{}\n",
-                   i == 0 ? fmt::format("G06.2 P{} ", rank) : std::string(), knot(i),
-                   number(points[i].x(), decimals()), number(points[i].y(), decimals()), z_word,
-                   curve.is_rational() ? number(curve.weights()[i], kWeightDecimals) : "1");
+                   i == 0 ? fmt::format("G06.2 P{} {}", rank, method_word()) : std::string(),
+                   knot(i), number(points[i].x(), decimals()), number(points[i].y(), decimals()),
+                   z_word, curve.is_rational() ? number(curve.weights()[i], kWeightDecimals) : "1");
   }
   for (std::size_t i = points.size(); i < curve.knots().size(); ++i) {
-    fmt::format_to(out, "K{}\n", knot(i));
-  }
-  if (has_end_word()) {
-    text += "G06.3\n";
+    fmt::format_to(out, "{}K{}\n", closing_word(), knot(i));
   }
   return CurveCounts{1, static_cast<std::int64_t>(points.size()), 0};
+}
+
+/// LinuxCNC reads whole knots: the power of ten that leaves a million steps to the curve, or 1 where
+/// they are whole already. Only their ratios count.
+double KnotNurbs::knot_scale(const geometry::Curve& curve) const {
+  const auto is_whole = [&](double knot) {
+    return knot - curve.u_min() == std::floor(knot - curve.u_min());
+  };
+  if (std::all_of(curve.knots().begin(), curve.knots().end(), is_whole)) {
+    return 1.0;
+  }
+  const double domain = curve.u_max() - curve.u_min();
+  return std::pow(10.0, std::max(0.0, std::ceil(std::log10(kWholeDomain / domain))));
 }
 
 std::string FanucNurbs::path_mode(gcode::PathMode mode, double /*tolerance*/) const {

@@ -4,15 +4,17 @@
 
 namespace twin::studies::convert {
 
-/// G06.2: control points with their knots and weights, as they are.
+/// G06.2: control points with their knots and weights, as LinuxCNC reads it.
 ///
-///     G06.2 P4 K0 X0 Y0 R1     rank; knot, place and weight of the first control point
-///     K0 X1 Y1 R1              ...
-///     K1                       as many knots alone as the rank
-///     G06.3
+///     G06.2 P4 Q3 K0 X0 Y0 R1  rank; way to follow the curve; knot, place and weight of the first
+///     K0 X1 Y1 R1              control point
+///     ...
+///     G06.2 K1                 as many knots alone as the rank
 ///
-/// Source: see gcode::NurbsCollector. LinuxCNC has it from 2.10 on (the `rs274` of Debian 12 is 2.9
-/// and does not know the word).
+/// Q3 asks for steps of equal length along the curve. Knots are whole numbers there, so they are
+/// multiplied by a power of ten and rounded. Source: see gcode::NurbsCollector, and LinuxCNC's own
+/// programs in nc_files/nurbs. LinuxCNC has G06.2 from 2.10 on (the `rs274` of Debian 12 is 2.9 and
+/// does not know the word).
 class KnotNurbs : public Dialect {
  public:
   std::string_view name() const override { return "g6.2"; }
@@ -21,13 +23,14 @@ class KnotNurbs : public Dialect {
 
  protected:
   virtual int most_rank() const { return 6; }
-  virtual bool has_end_word() const { return true; }
+  virtual std::string_view method_word() const { return "Q3 "; }
+  virtual std::string_view closing_word() const { return "G06.2 "; }
   /// Factor of the knots, which only their ratios count of, and their decimals.
-  virtual double knot_scale() const { return 1.0; }
-  virtual int knot_decimals() const { return 9; }
+  virtual double knot_scale(const geometry::Curve& curve) const;
+  virtual int knot_decimals() const { return 0; }
 };
 
-/// The same for FANUC: no G06.3, for the next G word of motion ends the curve; rank 2 to 4.
+/// The same for FANUC: no Q, no word before the closing knots; rank 2 to 4.
 ///
 /// A FANUC of increment system IS-C takes four decimals of a coordinate; knots are whole numbers of
 /// the least increment too, hence the factor of 1000. Source: FANUC Series 15i/150i-MA operator's
@@ -42,8 +45,9 @@ class FanucNurbs : public KnotNurbs {
 
  protected:
   int most_rank() const override { return 4; }
-  bool has_end_word() const override { return false; }
-  double knot_scale() const override { return 1000.0; }
+  std::string_view method_word() const override { return ""; }
+  std::string_view closing_word() const override { return ""; }
+  double knot_scale(const geometry::Curve& /*curve*/) const override { return 1000.0; }
   int knot_decimals() const override { return 4; }
 };
 

@@ -84,6 +84,10 @@ std::int64_t ProgramWriter::write_arc(const gcode::Block& block) {
     const double offset = arc.centre[plane.axes[i]] - block.start[plane.axes[i]];
     words += fmt::format(" {}{}", plane.letters[i], number(offset, dialect_.decimals()));
   }
+  const double turns = std::ceil(arc.sweep / (2.0 * std::numbers::pi) - 1e-9);
+  if (turns > 1.0) {
+    words += fmt::format(" P{:.0f}", turns);
+  }
   write_move(axis[plane.normal] > 0.0 ? "G03" : "G02", words, block);
   return 1;
 }

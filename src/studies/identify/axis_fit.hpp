@@ -10,6 +10,7 @@
 
 #include "studies/identify/axis_problem.hpp"
 #include "studies/identify/candidates.hpp"
+#include "studies/identify/inverse_model.hpp"
 
 namespace twin::studies::identify {
 
@@ -19,6 +20,7 @@ struct FitOptions {
   std::uint32_t seed = 1;
   std::vector<std::string> fixed;  ///< keys that keep the starting value
   std::vector<std::string> freed;  ///< keys that are fitted although they are fixed by default
+  double held_out_share = 0.0;     ///< of each record, at its end, that joins the fit last
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double)> progress;  ///< gets the done share, 0 to 1
 
@@ -33,6 +35,7 @@ struct FitOptions {
 /// Where the value of a parameter comes from.
 enum class Verdict {
   kIdentified,    ///< the fit found it, and the data determine it
+  kUncertain,     ///< the fit found it, but its deviation is not to be trusted, or large
   kMeasured,      ///< computed from the data directly, without a fit
   kUnidentified,  ///< starting value, because the data do not determine it
   kAtBound,       ///< starting value, because the fit ran to the end of the parameter's range
@@ -53,14 +56,32 @@ struct FittedParameter {
   std::string why;  ///< why a parameter is unidentified
 };
 
+/// A residual of so many times what rounding makes is a lack of fit: deviations say too little then.
+inline constexpr double kLackOfFit = 3.0;
+
 /// Result of fitting one axis.
 struct AxisFit {
   config::MachineFile machine;  ///< the starting machine with the new values of this axis
   std::vector<FittedParameter> parameters;
-  double residual_rms = 0.0;    ///< RMS of the open-loop residual [mm]
+  std::vector<FittedParameter> derived;    ///< what is no key of its own; its unit is in the name
+  std::vector<std::string> notes;          ///< of the fit
+  std::vector<std::string> seems_to_lack;  ///< what the residual goes with, where it is too large
+  std::optional<InverseModel> inverse;     ///< where the motor's force is known
+  std::optional<InverseModel> two_way;     ///< the same with friction that differs either way
+  bool takes_two_way = false;              ///< the machine has the friction of the latter
+  /// The machine before the held-out part of the records joined the fit.
+  std::optional<config::MachineFile> trained;
+  std::optional<InverseModel> trained_inverse;
+  bool turns_force = false;     ///< the recorded force counts the other way than the position
+  double residual_rms = 0.0;    ///< RMS of the open-loop residual; in torque mode closed-loop [mm]
   double rounding_rms = 0.0;    ///< RMS of the encoder's rounding, 1 count / sqrt(12) [mm]
   std::size_t evaluations = 0;  ///< number of simulations in the global search
   bool was_stopped = false;
+
+  /// The inverse model whose friction the machine has.
+  const std::optional<InverseModel>& used_inverse() const {
+    return takes_two_way ? two_way : inverse;
+  }
 };
 
 /// Fits one axis in four steps: direct estimates from the data, a global search (CMA-ES), a local

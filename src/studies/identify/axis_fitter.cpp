@@ -9,16 +9,17 @@
 #include "studies/identify/least_squares.hpp"
 #include "studies/identify/measured_parameters.hpp"
 #include "studies/identify/minimise.hpp"
+#include "studies/identify/torque_servo.hpp"
 
 namespace twin::studies::identify {
 namespace {
 
-constexpr double kSpread = 0.12;   // of a global search about its start, of the unit cube
-constexpr int kSearches = 2;       // global searches at most
-constexpr double kGoodFit = 1.1;   // of what rounding makes: nothing is left to search for
-constexpr double kWorseFit = 1.2;  // of the residual, that holding parameters may make
-constexpr int kFreedRank = 100;    // added to that of what the user frees
-constexpr int kCoarseRank = 8;     // hold_rank from which on a parameter is fitted first
+constexpr double kSpread = 0.12;     // of a global search about its start, of the unit cube
+constexpr int kSearches = 2;         // global searches at most
+constexpr double kGoodFit = 1.1;     // of what rounding makes: nothing is left to search for
+constexpr double kWorseFit = 1.015;  // of the residual, that holding parameters may make
+constexpr int kFreedRank = 100;      // added to that of what the user frees
+constexpr int kCoarseRank = 8;       // hold_rank from which on a parameter is fitted first
 constexpr double kPopulationPerFree = 1.5;
 constexpr int kMostRounds = 8;         // of holding what is not shown and fitting the rest again
 constexpr int kAlignments = 3;         // of hum phases and all else, one after the other
@@ -57,6 +58,15 @@ AxisFitter::AxisFitter(AxisProblem&& problem, FitOptions options)
     }
     parameter.candidate = std::move(candidate);
     searched_.push_back(std::move(parameter));
+  }
+  if (options_.held_out_share > 0.0) {
+    records_.assign(problem_.all_records().begin(), problem_.all_records().end());
+    std::vector<AxisRecord> first_parts;
+    for (const AxisRecord& record : records_) {
+      first_parts.push_back(
+          part_of(record, 0, trained_rows(record, options_.held_out_share), start_.period));
+    }
+    problem_.set_records(std::move(first_parts));
   }
 }
 
@@ -101,7 +111,7 @@ Eigen::VectorXd AxisFitter::residuals(const ParameterSet& set, const Eigen::Vect
 }
 
 /// The local search, over the parameters of at least a hold_rank.
-void AxisFitter::polish(int iterations, int least_rank) {
+void AxisFitter::polish(int iterations, int least_rank, double tolerance) {
   Indices indices = free_indices();
   std::erase_if(indices,
                 [&](std::size_t i) { return searched_[i].candidate.hold_rank < least_rank; });
@@ -110,7 +120,7 @@ void AxisFitter::polish(int iterations, int least_rank) {
   const std::vector<double> units = set.units(current_);
   LeastSquaresOptions options;
   options.iterations = iterations;
-  options.tolerance = has_volts() ? 1e-5 : 1e-6;  // without, the valleys are longer
+  options.tolerance = has_volts() ? tolerance : 0.1 * tolerance;  // without, the valleys are longer
   options.stop = options_.stop;
   const LeastSquaresFit fit = least_squares(
       [&](const Eigen::VectorXd& u) { return residuals(set, u); },
@@ -138,6 +148,7 @@ void AxisFitter::search(int number, const config::MachineFile& begin) {
       8 + static_cast<std::size_t>(kPopulationPerFree * static_cast<double>(set.size()));
   options.evaluations = options_.evaluations / kSearches;
   options.seed = options_.seed + static_cast<std::uint32_t>(number);
+  options.threads = 0;
   options.stop = options_.stop;
   options.progress = [&](double share, double) {
     report(kSearchStart + (kSearchEnd - kSearchStart) * (number + share) / kSearches);
@@ -170,7 +181,7 @@ void AxisFitter::search_further(const config::MachineFile& begin) {
 void AxisFitter::judge_and_hold() {
   Indices indices;  // of all but what the user fixed
   for (std::size_t i = 0; i < searched_.size(); ++i) {
-    if (searched_[i].result.verdict != Verdict::kFixed) {
+    if (searched_[i].result.verdict != Verdict::kFixed && !searched_[i].is_measured) {
       indices.push_back(i);
     }
   }
@@ -189,7 +200,8 @@ void AxisFitter::judge_and_hold() {
     problem_.set_base(current_);
     const Judgement judgement = judge(
         judged, [&](const Eigen::VectorXd& u) { return residuals(set, u); },
-        static_cast<Eigen::Index>(std::lround(kBlock / current_.period)));
+        static_cast<Eigen::Index>(std::lround(kBlock / current_.period)),
+        problem_.rounding_errors());
     report(kSearchEnd + (1.0 - kSearchEnd) * (round + 1.0) / (kMostRounds + 1.0));
     const config::MachineFile fitted = current_;
     const double residual = rms_of(fitted);
@@ -245,7 +257,14 @@ void AxisFitter::doubt_hum_without_amplitude() {
   }
 }
 
-void AxisFitter::estimate_gains() { gains_ = measure_gains(problem_, options_, current_); }
+void AxisFitter::estimate_gains() {
+  gains_ = is_torque_mode() ? measure_torque_servo(problem_, options_, current_)
+                            : measure_gains(problem_, options_, current_);
+}
+
+bool AxisFitter::is_torque_mode() const {
+  return start_.table.axis[problem_.axis()].drive.mode == hal::mujoco::DriveMode::kTorque;
+}
 
 void AxisFitter::estimate_hum() {
   std::vector<Searched*> hum;  // amplitude, frequency, phase
@@ -284,9 +303,17 @@ bool AxisFitter::is_free(const std::string& name) const {
 /// Reads off the records what needs no search.
 void AxisFitter::estimate_directly() {
   count_ = measure_count(problem_, options_, current_);
-  if (count_.verdict == Verdict::kMeasured) {
+  if (count_.verdict == Verdict::kMeasured || count_.verdict == Verdict::kUncertain) {
     const double quantum = std::abs(current_.table.axis[problem_.axis()].encoder.mm_per_count);
     fit_.rounding_rms = quantum / std::sqrt(12.0);
+  }
+  if (problem_.has_force()) {
+    estimate_inverse();
+  }
+  if (is_torque_mode()) {
+    estimate_gains();
+    complete_torque_mode();
+    return;
   }
   hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
   if (const auto scale = direct_scale(problem_); scale && is_free("vref_scale_rpm_per_V")) {
@@ -297,21 +324,31 @@ void AxisFitter::estimate_directly() {
   if (is_free("vref_offset_mV")) {
     drive.vref_offset += direct_offset(problem_, current_);
   }
+  if (!has_volts()) {
+    begin_from_steady_lag();
+  }
 }
 
 AxisFit AxisFitter::run() {
   problem_.use(1);  // further records join a fit that is near already
   estimate_directly();
   report(0.05);
+  if (is_torque_mode()) {
+    join_held_out();
+    return finish_torque_mode();
+  }
   const config::MachineFile begin = current_;
   polish(10, kCoarseRank);
   polish(has_volts() ? 20 : 60);
+  hold_friction_where_unfit();
   search_further(begin);
   problem_.use(problem_.total());
   for (int i = 0; i < kAlignments && problem_.total() > 1; ++i) {
     align();
     polish(15);
   }
+  join_held_out();
+  hold_friction_where_unfit();
   judge_and_hold();
   estimate_gains();
   return finish();
@@ -330,11 +367,17 @@ AxisFit AxisFitter::finish() {
     }
   }
   doubt_hum_without_amplitude();
+  widen_by_mass();
+  judge_lack_of_fit();
+  if (!has_volts()) {
+    doubt_gains_without_volts();
+  }
   fit_.machine = current_;
   for (Searched& parameter : searched_) {
     fit_.parameters.push_back(std::move(parameter.result));
   }
   fit_.parameters.push_back(std::move(count_));
+  std::ranges::move(loads_, std::back_inserter(fit_.parameters));
   std::ranges::move(gains_, std::back_inserter(fit_.parameters));
   fit_.was_stopped = options_.stop != nullptr && options_.stop->load();
   report(1.0);

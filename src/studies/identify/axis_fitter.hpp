@@ -20,7 +20,8 @@ class AxisFitter {
   struct Searched {
     Candidate candidate;
     FittedParameter result;
-    bool is_held = false;  ///< keeps its value in every search
+    bool is_held = false;      ///< keeps its value in every search
+    bool is_measured = false;  ///< by the motor's force
   };
   using Indices = std::vector<std::size_t>;  // into searched_
 
@@ -28,11 +29,30 @@ class AxisFitter {
   bool is_free(const std::string& name) const;
   void estimate_directly();
   void estimate_gains();
+  void estimate_inverse();
+  void fit_inverse_models();
+  void add_load(const std::string& key, const char* name, double& field, double start,
+                const Coefficient& coefficient, double to_unit);
+  void take_loads(const InverseModel& model);
+  void raise_peak_torque();
+  void take_coefficient(const std::string& name, const Coefficient& coefficient, double to_unit,
+                        bool is_held = true);
+  void hold_friction_where_unfit();
+  void widen_by_mass();
+  void begin_from_steady_lag();
+  void join_held_out();
+  void judge_lack_of_fit();
+  std::vector<std::string> what_residual_goes_with();
+  void doubt_gains_without_volts();
+  bool is_torque_mode() const;
+  double closed_loop_rms() const;
+  void complete_torque_mode();
+  AxisFit finish_torque_mode();
   void estimate_hum();
   void align();
   void search(int number, const config::MachineFile& begin);
   void search_further(const config::MachineFile& begin);
-  void polish(int iterations, int least_rank = 0);
+  void polish(int iterations, int least_rank = 0, double tolerance = 1e-5);
   void judge_and_hold();
   bool note(const Indices& judged, const Judgement& judgement);
   Indices free_indices() const;
@@ -51,6 +71,10 @@ class AxisFitter {
   std::vector<Searched> searched_;
   FittedParameter count_;               // of the encoder
   std::vector<FittedParameter> gains_;  // of the servo, where the drive commands tell them
+  FittedParameter delay_;               // of the output, in torque mode
+  std::vector<FittedParameter> loads_;  // weight and asymmetry, where the force tells them
+  std::vector<AxisRecord> records_;     // whole, while the problem has their first part
+  bool holds_friction_ = false;         // at what the force tells
   AxisFit fit_;
 };
 

@@ -21,7 +21,8 @@ AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis) {
 }
 
 AxisModel::AxisModel(const AxisSetup& setup, double start)
-    : dac_(setup.axis.dac_bits),
+    : params_(setup.axis),
+      dac_(setup.axis.dac_bits),
       axis_(setup.axis,
             setup.period / hal::mujoco::steps_per_period(setup.period, setup.physics_step)),
       encoder_(setup.axis.encoder),
@@ -32,7 +33,11 @@ AxisModel::AxisModel(const AxisSetup& setup, double start)
       rate_per_force_(0.0),
       step_(0.0),
       steps_(hal::mujoco::steps_per_period(setup.period, setup.physics_step)),
+      period_(setup.period),
+      feedback_(setup.axis.encoder.delay * steps_ / setup.period),
+      reported_(start),
       position_(start) {
+  feedback_.fill(start);
   step_ = setup.period / steps_;
   rate_per_force_ = units::mm_from_m(step_ / (setup.axis.moving_mass + setup.axis.rotor_mass()));
 }
@@ -47,10 +52,12 @@ void AxisModel::advance() noexcept {
         axis_.step({position_, velocity_, velocity_ * rad_per_mm_}, time);
     velocity_ += rate_per_force_ * (forces.slide + forces.torque * force_per_torque_);
     position_ += step_ * velocity_;
+    force_ = forces.torque * force_per_torque_;
+    reported_ = feedback_.step(position_);
   }
   if (!(std::abs(position_) < kFarAway)) {
     has_failed_ = true;
-    position_ = velocity_ = 0.0;
+    position_ = velocity_ = reported_ = 0.0;
   }
 }
 
@@ -60,11 +67,18 @@ void AxisModel::write(double volts) noexcept {
   }
 }
 
-AxisRow AxisModel::follow(const motion::Reference& reference) noexcept {
-  advance();
+AxisRow AxisModel::row() const noexcept {
   AxisRow row;
   row.table = position_;
-  row.encoder = motion::position_from_counts(encoder_.counts(position_), mm_per_count_);
+  row.feedback = reported_;
+  row.encoder = motion::position_from_counts(encoder_.counts(reported_), mm_per_count_);
+  row.force = force_;
+  return row;
+}
+
+AxisRow AxisModel::follow(const motion::Reference& reference) noexcept {
+  advance();
+  AxisRow row = this->row();
   row.volts = servo_.update(reference, row.encoder);
   write(row.volts);
   return row;
@@ -72,12 +86,30 @@ AxisRow AxisModel::follow(const motion::Reference& reference) noexcept {
 
 AxisRow AxisModel::drive(double volts) noexcept {
   advance();
-  AxisRow row;
-  row.table = position_;
-  row.encoder = motion::position_from_counts(encoder_.counts(position_), mm_per_count_);
+  AxisRow row = this->row();
   row.volts = volts;
   write(volts);
   return row;
+}
+
+void AxisModel::begin_moving(const BeginOfMotion& begin) noexcept {
+  position_ = begin.position - begin.velocity * period_;
+  velocity_ = begin.velocity;
+  feedback_.fill(position_);
+  reported_ = position_;
+  const double sliding = std::copysign(params_.friction.coulomb_at(velocity_), velocity_) +
+                         params_.friction.viscous_at(velocity_) * velocity_ + params_.load.weight;
+  const double mass = params_.moving_mass + params_.rotor_mass();
+  force_ = sliding + mass * units::m_from_mm(begin.acceleration);
+  const double torque = force_ / force_per_torque_;
+  const bool is_torque_mode = params_.drive.mode == hal::mujoco::DriveMode::kTorque;
+  const double steady =
+      is_torque_mode ? torque / params_.torque_per_volt() : velocity_ / params_.mm_per_s_per_volt();
+  axis_.begin_moving({position_, velocity_, velocity_ * rad_per_mm_},
+                     std::isfinite(begin.volts) ? begin.volts : steady, torque);
+  motion::Reference past = begin.command;
+  past.position -= begin.velocity * period_;
+  servo_.begin_moving(past, position_, begin.velocity);
 }
 
 void AxisModel::settle(double position) noexcept {
@@ -96,6 +128,19 @@ AxisRun simulate(const AxisSetup& setup, std::span<const motion::Reference> set_
   run.rows.reserve(set_points.size());
   AxisModel model(setup, set_points.front().position);
   model.settle(set_points.front().position);
+  for (const motion::Reference& set_point : set_points) {
+    run.rows.push_back(model.follow(set_point));
+  }
+  run.has_failed = model.has_failed();
+  return run;
+}
+
+AxisRun simulate_moving(const AxisSetup& setup, std::span<const motion::Reference> set_points,
+                        const BeginOfMotion& begin) {
+  AxisRun run;
+  run.rows.reserve(set_points.size());
+  AxisModel model(setup, begin.position);
+  model.begin_moving(begin);
   for (const motion::Reference& set_point : set_points) {
     run.rows.push_back(model.follow(set_point));
   }

@@ -29,9 +29,20 @@ AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis);
 
 /// State of one axis at the instant at which the controller reads its encoder.
 struct AxisRow {
-  double encoder = 0.0;  ///< position by the encoder counts [mm]
-  double table = 0.0;    ///< true position [mm]
-  double volts = 0.0;    ///< drive command of this period, before the converter [V]
+  double encoder = 0.0;   ///< position by the encoder counts [mm]
+  double table = 0.0;     ///< true position [mm]
+  double feedback = 0.0;  ///< position that the encoder rounds, late by its delay [mm]
+  double volts = 0.0;     ///< drive command of this period, before the converter [V]
+  double force = 0.0;     ///< of the motor at the slide, in the last physics step before it [N]
+};
+
+/// A motion that goes on at the begin of a record.
+struct BeginOfMotion {
+  motion::Reference command;  ///< set point of the first row
+  double position = 0.0;      ///< measured there [mm]
+  double velocity = 0.0;      ///< [mm/s]
+  double acceleration = 0.0;  ///< [mm/s^2]
+  double volts = 0.0;         ///< drive command there [V]; not a number: that of steady motion
 };
 
 /// Simulates one servo axis of the table with its position loop, without MuJoCo.
@@ -64,6 +75,10 @@ class AxisModel {
   /// @param position  [mm]
   void settle(double position) noexcept;
 
+  /// Begins in motion, one period before the first row: drive and friction are as in steady motion
+  /// with the velocity and acceleration given. Real-time safe.
+  void begin_moving(const BeginOfMotion& begin) noexcept;
+
   /// Velocity of the slide [mm/s].
   double velocity() const noexcept { return velocity_; }
   /// True once the simulated motion is not finite or far outside any machine; the slide then stands
@@ -73,7 +88,9 @@ class AxisModel {
  private:
   void advance() noexcept;
   void write(double volts) noexcept;
+  AxisRow row() const noexcept;
 
+  hal::mujoco::AxisParams params_;
   hal::Dac dac_;
   hal::mujoco::TableAxis axis_;
   hal::mujoco::Encoder encoder_;
@@ -85,8 +102,12 @@ class AxisModel {
   double step_;              // physics step h [s]
   int steps_;                // physics steps in a period
   std::int64_t steps_done_ = 0;
-  double position_;        // of the slide [mm]
-  double velocity_ = 0.0;  // [mm/s]
+  double period_;                    // [s]
+  double force_ = 0.0;               // of the motor at the slide [N]
+  hal::mujoco::DelayLine feedback_;  // of the encoder
+  double reported_;                  // position behind it [mm]
+  double position_;                  // of the slide [mm]
+  double velocity_ = 0.0;            // [mm/s]
   bool has_failed_ = false;
 };
 
@@ -99,6 +120,10 @@ struct AxisRun {
 /// Simulates a run of one axis in closed loop: holds the first set point for kSettleTime, then
 /// follows all set points.
 AxisRun simulate(const AxisSetup& setup, std::span<const motion::Reference> set_points);
+
+/// Simulates a run of one axis in closed loop that begins in motion.
+AxisRun simulate_moving(const AxisSetup& setup, std::span<const motion::Reference> set_points,
+                        const BeginOfMotion& begin);
 
 /// Adds velocity and acceleration to set points that were recorded as positions only.
 ///

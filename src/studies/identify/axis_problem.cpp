@@ -9,17 +9,27 @@
 namespace twin::studies::identify {
 namespace {
 
+constexpr int kCountPlaces = 4;    // that rounding is tried with
 constexpr double kUnstable = 1e3;  // residual of a motion that ran away [mm]
 
-/// Drops what is slower than a time constant, and the first value.
-void filter(Eigen::Ref<Eigen::VectorXd> values, double period) {
+/// Drops what is slower than a time constant, the first value, and rows that do not count.
+void filter(Eigen::Ref<Eigen::VectorXd> values, const AxisRecord& record, double period) {
   const double keep = std::exp(-period / AxisProblem::kForgetting);
-  double last = values.size() > 0 ? values[0] : 0.0;
+  const auto settling = static_cast<Eigen::Index>(settling_rows(record, period));
+  double last = settling < values.size() ? values[settling] : 0.0;
   double filtered = 0.0;
-  for (double& value : values) {
-    filtered = keep * (filtered + value - last);
-    last = value;
-    value = filtered;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    if (k < settling) {
+      values[k] = 0.0;
+      continue;
+    }
+    if (!record.counts(static_cast<std::size_t>(k))) {
+      values[k] = 0.0;
+      continue;
+    }
+    filtered = keep * (filtered + values[k] - last);
+    last = values[k];
+    values[k] = filtered;
   }
 }
 
@@ -31,6 +41,19 @@ AxisProblem::AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<A
       records_(std::move(records)),
       hum_phase_(records_.size(), 0.0) {
   use(records_.size());
+}
+
+void AxisProblem::set_records(std::vector<AxisRecord> records) {
+  const std::size_t in_use = used_;
+  records_ = std::move(records);
+  hum_phase_.resize(records_.size(), 0.0);
+  use(in_use);
+}
+
+void AxisProblem::turn_force() noexcept {
+  for (AxisRecord& record : records_) {
+    std::ranges::for_each(record.force, [](double& force) { force = -force; });
+  }
 }
 
 void AxisProblem::use(std::size_t count) noexcept {
@@ -51,14 +74,22 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std:
     setup.axis.dac_bits =
         hal::mujoco::kMaxDacBits;  // steps of a converter would make the residual rough
   }
-  AxisModel model(setup, data.command.front().position);
-  model.settle(data.command.front().position);
+  AxisModel model(setup, data.begin ? data.begin->position : data.command.front().position);
   motion::AxisServo servo(setup.servo, setup.axis.mm_per_s_per_volt(), setup.period);
+  if (data.begin) {
+    model.begin_moving(*data.begin);
+    motion::Reference past = data.begin->command;
+    past.position -= data.begin->velocity * setup.period;
+    servo.begin_moving(past, data.begin->position - data.begin->velocity * setup.period,
+                       data.begin->velocity);
+  } else {
+    model.settle(data.command.front().position);
+  }
   Eigen::VectorXd result(static_cast<Eigen::Index>(data.measured.size()));
   for (std::size_t k = 0; k < data.measured.size(); ++k) {
     const double volts =
         data.has_volts() ? data.volts[k] : servo.update(data.command[k], data.measured[k]);
-    result[static_cast<Eigen::Index>(k)] = data.measured[k] - model.drive(volts).table;
+    result[static_cast<Eigen::Index>(k)] = data.measured[k] - model.drive(volts).feedback;
   }
   if (model.has_failed()) {
     result.setConstant(kUnstable);
@@ -66,9 +97,29 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std:
   return result;
 }
 
+std::vector<Eigen::VectorXd> AxisProblem::rounding_errors() const {
+  const double count = std::abs(base_.table.axis[axis_].encoder.mm_per_count);
+  std::vector<Eigen::VectorXd> all(kCountPlaces, Eigen::VectorXd(rows_));
+  Eigen::Index begin = 0;
+  for (std::size_t i = 0; i < used_; ++i) {
+    const Eigen::VectorXd apart = difference(base_, i);
+    for (int place = 0; place < kCountPlaces; ++place) {
+      auto part = all[static_cast<std::size_t>(place)].segment(begin, apart.size());
+      for (Eigen::Index k = 0; k < apart.size(); ++k) {
+        const double x = records_[i].measured[static_cast<std::size_t>(k)] - apart[k];
+        const double counts = x / count + static_cast<double>(place) / kCountPlaces;
+        part[k] = count * (std::round(counts) - counts);
+      }
+      filter(part, records_[i], base_.period);
+    }
+    begin += apart.size();
+  }
+  return all;
+}
+
 double AxisProblem::cost(std::size_t record, double hum_phase) const {
   Eigen::VectorXd values = difference(base_, record, hum_phase);
-  filter(values, base_.period);
+  filter(values, records_[record], base_.period);
   return values.squaredNorm();
 }
 
@@ -81,7 +132,7 @@ Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,
     const Eigen::VectorXd one = difference(machine, i);
     all.segment(begin, one.size()) = one;
     if (std::abs(one[0]) < kUnstable) {
-      filter(all.segment(begin, one.size()), machine.period);
+      filter(all.segment(begin, one.size()), records_[i], machine.period);
     }
     begin += one.size();
   }

@@ -5,22 +5,13 @@
 #include <vector>
 
 #include "config/machine_file.hpp"
-#include "studies/identify/axis_model.hpp"
+#include "studies/identify/axis_record.hpp"
 #include "studies/identify/parameter.hpp"
 
 namespace twin::studies::identify {
 
 /// Travel of the simulated axis during a fit, so large that no limit switch is reached [mm].
 inline constexpr double kFarTravel = 1e4;
-
-/// The signals of one axis in one trace, one value for each period.
-struct AxisRecord {
-  std::vector<motion::Reference> command;  ///< set points
-  std::vector<double> measured;            ///< positions by the encoder [mm]
-  std::vector<double> volts;               ///< drive command [V]; empty where it was not recorded
-
-  bool has_volts() const noexcept { return !volts.empty(); }
-};
 
 /// The least-squares problem of fitting one axis: how far the simulated axis is from the recorded
 /// one if both get the same drive command.
@@ -40,7 +31,8 @@ struct AxisRecord {
 ///
 /// The velocity loop of the drive keeps x near the integral of the command, so that rho shows the
 /// torque that the motion needed. Effects that the model lacks would add up in x over a long
-/// record. The high-pass filter H with the time constant kForgetting removes them.
+/// record. The high-pass filter H with the time constant kForgetting removes them. Rows that are left
+/// out, and those in which a record that begins in motion settles, have rho = 0.
 class AxisProblem {
  public:
   static constexpr double kForgetting = 0.5;  ///< time constant of H [s]
@@ -57,6 +49,10 @@ class AxisProblem {
   /// @param units  their values, each scaled to 0..1 (see ParameterSet)
   Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const;
 
+  /// What the rounding to counts alone makes of the residuals, for several places of the counts
+  /// [mm]. It is no noise: where the axis vibrates or creeps it goes on for many rows.
+  std::vector<Eigen::VectorXd> rounding_errors() const;
+
   /// Difference y - x of one record without the filter H [mm].
   Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record) const {
     return difference(machine, record, hum_phase_[record]);
@@ -72,8 +68,15 @@ class AxisProblem {
   /// The records in use.
   std::span<const AxisRecord> records() const noexcept { return {records_.data(), used_}; }
   bool has_volts() const { return records().front().has_volts(); }
+  bool has_force() const { return records_.front().has_force(); }
+  /// All records, in use or not.
+  std::span<const AxisRecord> all_records() const noexcept { return records_; }
   /// Uses the first `count` records only. At first all records are in use.
   void use(std::size_t count) noexcept;
+  /// Turns the sign of the force of all records.
+  void turn_force() noexcept;
+  /// Puts other records of the same traces in place of these.
+  void set_records(std::vector<AxisRecord> records);
   std::size_t total() const noexcept { return records_.size(); }
   hal::Axis axis() const noexcept { return axis_; }
   Eigen::Index rows() const noexcept { return rows_; }

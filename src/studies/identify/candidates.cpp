@@ -39,13 +39,13 @@ constexpr std::array kLines{
     CandidateRow{"table", "bristle_stiffness_N_per_um", 1e-3, 1000, kLog, "bristle stiffness", 6},
     CandidateRow{"table", "bristle_damping_N_s_per_m", 0, 2e4, kLinear, "bristle damping", 3,
                  When::kAlways, 1.0},
-    CandidateRow{"table", "viscous_friction_N_s_per_m", 0, 2e3, kLinear, "viscous friction", 5,
+    CandidateRow{"table", "viscous_friction_N_s_per_m", 0, 0, kLinear, "viscous friction", 5,
                  When::kAlways, 1.0},
     CandidateRow{"table", "velocity_gain_Hz", 0, 0, kLog, "velocity loop gain", 13},
-    CandidateRow{"table", "integral_time_ms", 0.5, 500, kLog, "velocity loop integral time", 11},
+    CandidateRow{"table", "integral_time_ms", 0.5, 2000, kLog, "velocity loop integral time", 11},
     CandidateRow{"table", "current_lag_ms", 0, 3, kLinear, "current loop lag", 2, When::kAlways,
                  0.05},
-    CandidateRow{"table", "output_delay_ms", 0, 3, kLinear, "output delay", 9, When::kAlways, 0.05},
+    CandidateRow{"table", "output_delay_ms", 0, 0, kLinear, "output delay", 9, When::kAlways, 0.05},
     CandidateRow{"table", "vref_scale_rpm_per_V", 0, 0, kLinear, "V-REF scale", 8,
                  When::kWithVolts},
     CandidateRow{"table", "vref_offset_mV", -300, 300, kLinear, "V-REF offset", 14, When::kAlways,
@@ -54,10 +54,15 @@ constexpr std::array kLines{
     CandidateRow{"table", "hum_frequency_Hz", 5, 450, kLinear, "hum frequency", 16},
     CandidateRow{"table", "hum_phase_deg", -360, 360, kLinear, "hum phase", 17, When::kAlways, 90},
     CandidateRow{"servo", "kp_per_s", 5, 1000, kLog, "position gain Kp", 18, When::kWithoutVolts},
-    CandidateRow{"servo", "kf", 0, 1.5, kLinear, "velocity feedforward Kf", 19,
+    CandidateRow{"servo", "kf", -1.5, 1.5, kLinear, "velocity feedforward Kf", 19,
                  When::kWithoutVolts},
     CandidateRow{"servo", "ka_s", -0.01, 0.01, kLinear, "acceleration feedforward Ka", 10,
                  When::kWithoutVolts, 4e-4}};
+
+constexpr double kMostViscous = 170.0;     // over the mass [N s/m/kg]
+constexpr double kUsualMass = 12.0;        // of a light axis [kg]
+constexpr double kMostDelayPeriods = 3.0;  // of the output; 6 ms where rows are 2 ms apart
+constexpr double kUsualPeriod = 1e-3;      // [s]
 
 /// Largest velocity loop gain that the physics step bears, with a margin [Hz].
 double most_gain(const config::MachineFile& machine) {
@@ -76,6 +81,8 @@ std::vector<std::string> known_keys(const config::MachineFile& machine) {
     const std::string name = axis == hal::kX ? "x" : "y";
     known.push_back("servo." + name + ".kd");
     known.push_back("servo." + name + ".trim_V");
+    known.push_back("table." + name + ".weight_N");
+    known.push_back("table." + name + ".viscous_asymmetry_N_s_per_m");
     known.push_back("table." + name + ".encoder_um_per_count");
   }
   return known;
@@ -96,6 +103,10 @@ std::vector<Candidate> axis_candidates(const config::MachineFile& machine, hal::
     if (key.starts_with("moving_mass")) {
       min = std::max(0.05 * mass, 0.1);
       max = std::min(20.0 * mass, 1e4);
+    } else if (key.starts_with("viscous_friction")) {
+      max = kMostViscous * std::max(mass, kUsualMass);
+    } else if (key.starts_with("output_delay")) {
+      max = kMostDelayPeriods * std::max(machine.period, kUsualPeriod) * 1e3;
     } else if (key.starts_with("velocity_gain")) {
       min = 1.0;
       max = most_gain(machine);

@@ -1,6 +1,7 @@
 #include "studies/identify/identification_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "core/json.hpp"
 #include "core/text_table.hpp"
 #include "core/units.hpp"
+#include "studies/identify/validation_report.hpp"
 
 namespace twin::studies::identify {
 namespace {
@@ -19,8 +21,13 @@ constexpr std::size_t kReasonWidth = 76;  // of a line of a reason
 constexpr TextLayout kParameters{.notes = Notes::kShown};
 constexpr TextLayout kPredictions{.row_width = 27, .cell_width = 7};
 
-bool is_found(const FittedParameter& parameter) {
+bool is_identified(const FittedParameter& parameter) {
   return parameter.verdict == Verdict::kIdentified || parameter.verdict == Verdict::kMeasured;
+}
+
+/// Whether the value is one that the data gave, trusted or not.
+bool is_found(const FittedParameter& parameter) {
+  return is_identified(parameter) || parameter.verdict == Verdict::kUncertain;
 }
 
 /// Digits so that the uncertainty shows with two of them.
@@ -54,10 +61,7 @@ std::string relative_text(const FittedParameter& p) {
 }
 
 /// Where the value of a parameter comes from, in a word of the table.
-std::string origin_of(const FittedParameter& p) {
-  const bool is_start = p.verdict == Verdict::kUnidentified || p.verdict == Verdict::kAtBound;
-  return is_start ? "start" : std::string(verdict_name(p.verdict));
-}
+std::string origin_of(const FittedParameter& p) { return std::string(verdict_name(p.verdict)); }
 
 Line parameter_line(const FittedParameter& p) {
   const bool has_sigma = is_found(p) && p.sigma > 0.0;
@@ -84,24 +88,46 @@ std::string reason_text(const FittedParameter& p) {
   return text + line + "\n";
 }
 
+/// What the residual says of the fit.
+std::string residual_text(const AxisFit& fit) {
+  std::string text = fmt::format("residual {:.3g} um RMS", units::um_from_mm(fit.residual_rms));
+  if (!(fit.rounding_rms > 0.0)) {
+    return text + "\n";
+  }
+  text += fmt::format("; rounding to counts alone makes {:.3g} um\n",
+                      units::um_from_mm(fit.rounding_rms));
+  if (fit.residual_rms > kLackOfFit * fit.rounding_rms) {
+    text += fmt::format(
+        "{:.3g} times what rounding makes: the model lacks something, and what is\n"
+        "uncertain may be off by more than its deviation\n",
+        fit.residual_rms / fit.rounding_rms);
+  }
+  if (!fit.seems_to_lack.empty()) {
+    text += fmt::format("the residual goes with {}\n", fmt::join(fit.seems_to_lack, ", "));
+  }
+  return text;
+}
+
 std::string axis_table(const AxisFit& fit, hal::Axis axis) {
   TextTable table;
   table.row_head = axis == hal::kX ? "X axis" : "Y axis";
   table.head = {"value", "1 sigma", "relative"};
   std::string reasons;
+  std::string doubts;
   for (const FittedParameter& parameter : fit.parameters) {
     table.lines.push_back(parameter_line(parameter));
-    reasons += parameter.why.empty() ? "" : reason_text(parameter);
+    std::string& list = parameter.verdict == Verdict::kUncertain ? doubts : reasons;
+    list += parameter.why.empty() ? "" : reason_text(parameter);
   }
-  std::string text = "\n" + to_text(table, kParameters);
-  text += fmt::format("residual {:.3g} um RMS", units::um_from_mm(fit.residual_rms));
-  if (fit.rounding_rms > 0.0) {
-    text += fmt::format("; rounding to counts alone makes {:.3g} um",
-                        units::um_from_mm(fit.rounding_rms));
+  for (const FittedParameter& parameter : fit.derived) {
+    table.lines.push_back(parameter_line(parameter));
   }
-  text += "\n";
-  return reasons.empty() ? text
-                         : text + "not identified, these keep their starting values:\n" + reasons;
+  std::string text = "\n" + to_text(table, kParameters) + residual_text(fit);
+  if (fit.inverse) {
+    text += inverse_table(*fit.inverse, *fit.two_way);
+  }
+  text += doubts.empty() ? "" : "uncertain:\n" + doubts;
+  return reasons.empty() ? text : text + "not shown, these keep their starting values:\n" + reasons;
 }
 
 /// Tracking errors measured and of the identified machine.
@@ -134,40 +160,50 @@ std::string comment(const FittedParameter& p) {
                          relative_text(p));
     case Verdict::kMeasured:
       return "read off the trace";
+    case Verdict::kUncertain:
+      return "uncertain" + (p.why.empty() ? "" : ": " + p.why);
     case Verdict::kUnidentified:
     case Verdict::kAtBound:
-      return "not identified, starting value: " + p.why;
+      return "not shown, starting value: " + p.why;
     case Verdict::kFixed:
       return "fixed";
   }
   return {};
 }
 
-Json axis_json(const AxisFit& fit) {
-  Json parameters = Json::array();
-  for (const FittedParameter& p : fit.parameters) {
-    Json entry{{"key", p.key},
-               {"name", p.name},
-               {"start", rounded(p.start)},
-               {"value", rounded(p.value)},
-               {"sigma", rounded(p.sigma)},
-               {"relative_sigma", rounded(p.relative)},
-               {"identified", is_found(p)},
-               {"verdict", verdict_name(p.verdict)}};
-    if (!p.why.empty()) {
-      entry["why"] = p.why;
-    }
-    parameters.push_back(std::move(entry));
+Json parameter_json(const FittedParameter& p) {
+  Json entry{{"key", p.key},
+             {"name", p.name},
+             {"start", rounded(p.start)},
+             {"value", rounded(p.value)},
+             {"sigma", rounded(p.sigma)},
+             {"relative_sigma", rounded(p.relative)},
+             {"identified", is_identified(p)},
+             {"verdict", verdict_name(p.verdict)}};
+  if (!p.why.empty()) {
+    entry["why"] = p.why;
   }
-  return {{"residual_rms_um", rounded(units::um_from_mm(fit.residual_rms))},
-          {"rounding_rms_um", rounded(units::um_from_mm(fit.rounding_rms))},
-          {"search_evaluations", fit.evaluations},
-          {"parameters", std::move(parameters)}};
+  return entry;
 }
 
-Json error_json(const results::ErrorStats& error) {
-  return {{"rms", rounded(units::um_from_mm(error.rms))},
-          {"max", rounded(units::um_from_mm(error.max))}};
+Json axis_json(const AxisFit& fit) {
+  Json json{{"residual_rms_um", rounded(units::um_from_mm(fit.residual_rms))},
+            {"rounding_rms_um", rounded(units::um_from_mm(fit.rounding_rms))},
+            {"search_evaluations", fit.evaluations},
+            {"residual_goes_with", fit.seems_to_lack},
+            {"parameters", Json::array()},
+            {"derived", Json::array()}};
+  for (const FittedParameter& p : fit.parameters) {
+    json["parameters"].push_back(parameter_json(p));
+  }
+  for (const FittedParameter& p : fit.derived) {
+    json["derived"].push_back(parameter_json(p));
+  }
+  if (fit.inverse) {
+    json["inverse_model"] = inverse_json(*fit.inverse);
+    json["inverse_model_two_way"] = inverse_json(*fit.two_way);
+  }
+  return json;
 }
 
 }  // namespace
@@ -178,9 +214,11 @@ std::string_view verdict_name(Verdict verdict) {
       return "identified";
     case Verdict::kMeasured:
       return "measured";
+    case Verdict::kUncertain:
+      return "uncertain";
     case Verdict::kUnidentified:
     case Verdict::kAtBound:
-      return "not identified";
+      return "not shown";
     case Verdict::kFixed:
       return "fixed";
   }
@@ -197,7 +235,11 @@ std::string to_table(const Identification& result) {
                           axis == hal::kX ? "X" : "Y");
     }
   }
-  return text + "\n" + prediction_table(result.predictions);
+  text += "\n" + prediction_table(result.predictions);
+  for (const Validation& validation : result.validations) {
+    text += "\n" + validation_table(validation);
+  }
+  return text;
 }
 
 std::string to_json(const Identification& result, const std::filesystem::path& machine_file) {
@@ -214,6 +256,10 @@ std::string to_json(const Identification& result, const std::filesystem::path& m
                                    {"axis", p.axis == hal::kX ? "x" : "y"},
                                    {"measured_tracking_error_um", error_json(p.measured)},
                                    {"simulated_tracking_error_um", error_json(p.simulated)}});
+  }
+  json["validations"] = Json::array();
+  for (const Validation& validation : result.validations) {
+    json["validations"].push_back(validation_json(validation));
   }
   json["notes"] = result.notes;
   return to_text(json);

@@ -18,7 +18,8 @@ std::string to_json(const Identification& result, const std::filesystem::path& m
 /// from in its comment.
 std::string to_machine_file(const Identification& result);
 
-/// What a fit says of a parameter: "identified", "measured", "not identified" or "fixed".
+/// What a fit says of a parameter: "identified", "measured", "uncertain", "not
+/// shown" or "fixed".
 std::string_view verdict_name(Verdict verdict);
 
 }  // namespace twin::studies::identify

@@ -5,26 +5,30 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <mutex>
+#include <numbers>
 
 #include "core/stop_wish.hpp"
 #include "studies/identify/axis_model.hpp"
 #include "studies/identify/parallel_for.hpp"
+#include "studies/identify/signal_checks.hpp"
 
 namespace twin::studies::identify {
 namespace {
 
+constexpr double kHeldOutShare = 0.3;      // of each recording
 constexpr double kPoorPrediction = 0.2;    // of the RMS tracking error
 constexpr double kPeriodTolerance = 1e-4;  // relative, between recordings
 
-Expected<void> check_periods(const std::vector<Recording>& recordings) {
+Expected<void> check_periods(const std::vector<Recording>& recordings, double period) {
   for (const Recording& recording : recordings) {
-    const double period = recordings.front().period;
     if (std::abs(recording.period - period) > kPeriodTolerance * period) {
       return tl::unexpected<Error>(
           Error{ErrorCode::kFile,
-                fmt::format("rows are {:g} ms apart, but {:g} ms in {}: identify them one by one",
-                            recording.period * 1e3, period * 1e3, recordings.front().file.string()),
+                fmt::format("rows are {:g} ms apart, but {:g} ms in the first trace: identify them "
+                            "one by one",
+                            recording.period * 1e3, period * 1e3),
                 recording.file.string(), 0, 0});
     }
   }
@@ -32,20 +36,19 @@ Expected<void> check_periods(const std::vector<Recording>& recordings) {
 }
 
 /// The records of one axis, of the recordings in which it moves.
-std::vector<AxisRecord> records_of(const std::vector<Recording>& recordings, hal::Axis axis) {
+std::vector<AxisRecord> records_of(const std::vector<Recording>& recordings, hal::Axis axis,
+                                   const config::MachineFile& machine) {
   std::vector<AxisRecord> records;
-  bool has_volts = true;
   for (const Recording& recording : recordings) {
-    if (!recording.has_moved[axis]) {
-      continue;
+    if (recording.has_moved[axis]) {
+      records.push_back(axis_record(recording, axis, machine));
     }
-    const AxisSignals& signals = recording.axis[axis];
-    records.push_back(
-        {differentiate(signals.command, recording.period), signals.measured, signals.volts});
-    has_volts = has_volts && !signals.volts.empty();
   }
-  if (!has_volts) {
+  if (!std::ranges::all_of(records, &AxisRecord::has_volts)) {
     std::ranges::for_each(records, [](AxisRecord& record) { record.volts.clear(); });
+  }
+  if (!std::ranges::all_of(records, &AxisRecord::has_force)) {
+    std::ranges::for_each(records, [](AxisRecord& record) { record.force.clear(); });
   }
   return records;
 }
@@ -64,31 +67,102 @@ results::ErrorStats tracking_error(const std::vector<motion::Reference>& command
   return result;
 }
 
-/// Runs the identified machine along the commands of every recording.
-std::vector<Prediction> predict(const std::vector<Recording>& recordings,
-                                const config::MachineFile& machine) {
+void turn_force(AxisRecord& record) {
+  std::ranges::for_each(record.force, [](double& force) { force = -force; });
+}
+
+using Records = std::array<std::vector<AxisRecord>, hal::kServoAxes>;
+
+/// Runs the identified machine along the commands of every record.
+std::vector<Prediction> predict(const Records& records, const config::MachineFile& machine) {
   std::vector<Prediction> result;
-  for (const Recording& recording : recordings) {
-    for (const hal::Axis axis : {hal::kX, hal::kY}) {
-      if (recording.has_moved[axis]) {
-        result.push_back({recording.file.string(), axis, {}, {}});
-      }
+  std::vector<const AxisRecord*> sources;
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    for (const AxisRecord& record : records[axis]) {
+      result.push_back({record.trace, axis, {}, {}});
+      sources.push_back(&record);
     }
   }
   parallel_for(result.size(), [&](std::size_t i) {
     Prediction& prediction = result[i];
-    const auto recording = std::ranges::find(recordings, prediction.trace,
-                                             [](const Recording& r) { return r.file.string(); });
-    const AxisSignals& signals = recording->axis[prediction.axis];
-    const auto command = differentiate(signals.command, recording->period);
-    AxisSetup setup = axis_setup(machine, prediction.axis);
-    setup.axis.travel = kFarTravel;
-    const std::vector<AxisRow> rows = simulate(setup, command).rows;
+    const AxisRecord& record = *sources[i];
+    const std::vector<AxisRow> rows = follow_record(machine, prediction.axis, record).rows;
     prediction.measured =
-        tracking_error(command, [&](std::size_t k) { return signals.measured[k]; });
-    prediction.simulated = tracking_error(command, [&](std::size_t k) { return rows[k].encoder; });
+        tracking_error(record.command, [&](std::size_t k) { return record.measured[k]; });
+    prediction.simulated =
+        tracking_error(record.command, [&](std::size_t k) { return rows[k].encoder; });
   });
   return result;
+}
+
+/// A machine whose hum has come as far as it is where a part of a record begins.
+config::MachineFile with_hum_at(config::MachineFile machine, hal::Axis axis, double seconds) {
+  hal::mujoco::DriveParams& drive = machine.table.axis[axis].drive;
+  drive.hum_phase += 2.0 * std::numbers::pi * drive.hum_frequency_Hz * seconds;
+  return machine;
+}
+
+/// A machine without hum: where its phase is not known, a hum predicts nothing.
+config::MachineFile without_hum(config::MachineFile machine, hal::Axis axis) {
+  machine.table.axis[axis].drive.hum_amplitude = 0.0;
+  return machine;
+}
+
+/// Predicts the ends of the records by the machines that their begins were fitted by.
+void validate_held_out(const Records& records, double share, Identification& result) {
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    const auto& fit = result.axis[axis];
+    if (!fit || !fit->trained) {
+      continue;
+    }
+    const double period = result.machine.period;
+    std::vector<AxisRecord> trained;
+    for (const AxisRecord& record : records[axis]) {
+      trained.push_back(part_of(record, 0, trained_rows(record, share), period));
+    }
+    for (std::size_t i = 0; i < trained.size(); ++i) {
+      const AxisRecord& whole = records[axis][i];
+      const std::size_t first = trained[i].measured.size();
+      const AxisRecord rest = part_of(whole, first, whole.measured.size() - first, period);
+      if (!moves_enough(rest)) {
+        continue;
+      }
+      const double passed = static_cast<double>(first) * period + (whole.begin ? 0.0 : kSettleTime);
+      const config::MachineFile machine =
+          i == 0 ? with_hum_at(*fit->trained, axis, passed) : without_hum(*fit->trained, axis);
+      Validation& validation = result.validations.emplace_back(
+          validate(rest, axis, machine, fit->trained_inverse, trained));
+      validation.is_held_out = true;
+      validation.first_row = first;
+    }
+  }
+}
+
+/// Predicts recordings that were not fitted.
+Expected<void> validate_recordings(const std::vector<Recording>& recordings,
+                                   const config::MachineFile& units, const Records& trained,
+                                   Identification& result) {
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    std::vector<AxisRecord> records = records_of(recordings, axis, units);
+    for (AxisRecord& record : records) {
+      if (result.axis[axis] && result.axis[axis]->turns_force) {
+        turn_force(record);
+      }
+      if (!result.axis[axis]) {
+        result.notes.push_back(fmt::format("{}: {} moves, but was not identified; not validated",
+                                           record.trace, axis == hal::kX ? "X" : "Y"));
+        continue;
+      }
+      result.validations.push_back(validate(record, axis, without_hum(result.machine, axis),
+                                            result.axis[axis]->used_inverse(), trained[axis]));
+    }
+  }
+  if (!recordings.empty() && result.validations.empty()) {
+    return tl::unexpected<Error>(Error{ErrorCode::kFile,
+                                       "nothing moves here that was identified: no validation",
+                                       recordings.front().file.string(), 0, 0});
+  }
+  return {};
 }
 
 /// Says of which traces the identified machine is no model.
@@ -128,33 +202,54 @@ class SharedProgress {
 }  // namespace
 
 Expected<Identification> identify(const std::vector<Recording>& recordings,
-                                  const config::MachineFile& start, const FitOptions& options) {
-  TWIN_CHECK(check_periods(recordings));
+                                  const config::MachineFile& start, const FitOptions& options,
+                                  const std::vector<Recording>& validating) {
+  TWIN_CHECK(check_periods(recordings, recordings.front().period));
+  TWIN_CHECK(check_periods(validating, recordings.front().period));
   Identification result;
   result.machine = start;
   result.machine.period = recordings.front().period;
-  for (const Recording& recording : recordings) {
-    result.notes.insert(result.notes.end(), recording.notes.begin(), recording.notes.end());
+  for (const auto* const list : {&recordings, &validating}) {
+    for (const Recording& recording : *list) {
+      std::ranges::copy(recording.notes, std::back_inserter(result.notes));
+    }
   }
+  Records records;
   std::vector<hal::Axis> axes;
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
     if (std::ranges::any_of(recordings, [axis](const Recording& r) { return r.has_moved[axis]; })) {
+      TWIN_CHECK(fit_units(recordings, axis, result));
       axes.push_back(axis);
     }
   }
+  const config::MachineFile units = result.machine;
+  for (const hal::Axis axis : axes) {
+    records[axis] = records_of(recordings, axis, units);
+    TWIN_CHECK(check_signals(records[axis], axis, units));
+  }
+  const double held_out = validating.empty() ? kHeldOutShare : 0.0;
   SharedProgress progress(options.progress, axes.size());
   parallel_for(axes.size(), [&](std::size_t i) {
     FitOptions of_axis = options;
+    of_axis.held_out_share = held_out;
     of_axis.progress = [&](double share) { progress.set(i, share); };
-    result.axis[axes[i]] =
-        fit_axis(AxisProblem(result.machine, axes[i], records_of(recordings, axes[i])), of_axis);
+    result.axis[axes[i]] = fit_axis(AxisProblem(units, axes[i], records[axes[i]]), of_axis);
   });
   for (const hal::Axis axis : axes) {
-    result.machine.table.axis[axis] = result.axis[axis]->machine.table.axis[axis];
-    result.machine.servo[axis] = result.axis[axis]->machine.servo[axis];
+    const AxisFit& fit = *result.axis[axis];
+    if (fit.turns_force) {
+      std::ranges::for_each(records[axis], turn_force);
+    }
+    result.machine.table.axis[axis] = fit.machine.table.axis[axis];
+    result.machine.servo[axis] = fit.machine.servo[axis];
+    for (const std::string& note : fit.notes) {
+      result.notes.push_back(fmt::format("{}: {}", axis == hal::kX ? "X" : "Y", note));
+    }
   }
   TWIN_CHECK(check_wish(options.stop, "interrupted: nothing was written"));
-  result.predictions = predict(recordings, result.machine);
+  result.predictions = predict(records, result.machine);
+  validate_held_out(records, held_out, result);
+  TWIN_CHECK(validate_recordings(validating, units, records, result));
   note_poor_predictions(result);
   return result;
 }

@@ -136,17 +136,28 @@ std::optional<std::size_t> deviations(const std::vector<JudgedCandidate>& candid
     const auto rank = [&](std::size_t k) {
       return candidates[static_cast<std::size_t>(kept[k])].candidate->hold_rank;
     };
-    if (judgement[place].relative > kMostRelative && (!worst || rank(i) < rank(*worst))) {
+    const double most = candidate.is_analysed_only ? 0.0 : kMostRelative;
+    if (judgement[place].relative > most && (!worst || rank(i) < rank(*worst))) {
       worst = i;
     }
   }
   return worst;
 }
 
+/// Adds to a covariance the mean square of what rounding shifts the parameters by.
+void add_rounding(const MatrixXd& kept_columns, const std::vector<VectorXd>& rounding,
+                  MatrixXd& covariance) {
+  const MatrixXd inverse = normal_inverse(kept_columns);
+  for (const VectorXd& error : rounding) {
+    const VectorXd shift = transposed_product(inverse, transposed_product(kept_columns, error));
+    covariance.diagonal() += shift.cwiseAbs2() / static_cast<double>(rounding.size());
+  }
+}
+
 }  // namespace
 
 Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals& residuals,
-                Index block) {
+                Eigen::Index block, const std::vector<Eigen::VectorXd>& rounding) {
   Judgement judgement(candidates.size());
   VectorXd x(static_cast<Index>(candidates.size()));
   std::vector<Index> kept;
@@ -161,15 +172,21 @@ Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals&
   const VectorXd residual = residuals(x);
   const MatrixXd j = central_jacobian(residuals, x, kDifference);
   while (!kept.empty()) {
-    const MatrixXd covariance = block_covariance(columns_of(j, kept), residual, block);
+    MatrixXd covariance = block_covariance(columns_of(j, kept), residual, block);
     const auto worst = deviations(candidates, kept, covariance, judgement);
     if (!worst) {
+      // Rounding widens deviations, but holds nothing: a held value would shift the others.
+      add_rounding(columns_of(j, kept), rounding, covariance);
+      deviations(candidates, kept, covariance, judgement);
       break;
     }
     ParameterJudgement& held = judgement[static_cast<std::size_t>(kept[*worst])];
     held.verdict = Verdict::kUnidentified;
-    held.why =
-        partners(candidates, kept, normal_inverse(columns_of(j, kept)), static_cast<Index>(*worst));
+    // Positions show a mass as a scale only: whatever its deviation, it is held.
+    held.why = candidates[static_cast<std::size_t>(kept[*worst])].candidate->is_analysed_only
+                   ? "shows only together with Coulomb friction and all that scales with it"
+                   : partners(candidates, kept, normal_inverse(columns_of(j, kept)),
+                              static_cast<Index>(*worst));
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(*worst));
   }
   if (!kept.empty()) {

@@ -35,9 +35,10 @@ struct JudgedCandidate {
 /// held, that is, its column of J is dropped. Some parameters show only together, as do the mass and
 /// all frictions that scale with it; one of these is held and the others are determined relative to
 /// it. The deviations that are reported include a doubt of 30 % of each held value, propagated to
-/// first order.
-/// @param block  rows within which residuals may be correlated
+/// first order, and what the rounding to counts shifts the parameters by.
+/// @param block     rows within which residuals may be correlated
+/// @param rounding  what rounding makes of the residuals, in several cases; may be empty
 Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals& residuals,
-                Eigen::Index block);
+                Eigen::Index block, const std::vector<Eigen::VectorXd>& rounding = {});
 
 }  // namespace twin::studies::identify

@@ -33,32 +33,19 @@ constexpr double kRidge = 1e-14;  // what a gain that nothing shows is held to 0
 
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 
-constexpr double kNoStep = 1e-10;        // rounding of a number in a file
-constexpr double kWholeTolerance = 0.1;  // how far from whole a multiple may be
-constexpr double kWholeShare = 0.98;     // of the steps that must be whole multiples
-constexpr std::size_t kFewestSteps = 20;
-constexpr double kMostMultiple = 50.0;  // larger steps say nothing of the quantum
+constexpr double kPoorLaw = 0.01;    // of the drive command, that the law may leave
+constexpr double kFineVolts = 2e-3;  // which a converter's rounding may leave besides [V]
 
-/// Refines a guess over all steps that are small multiples of it; nothing if few steps are.
-std::optional<double> refined(const std::vector<double>& sorted_steps, double guess) {
-  double quantum = guess;
-  std::size_t whole = 0;
-  std::size_t tried = 0;
-  for (const double step : sorted_steps) {
-    // The more steps agree, the larger multiples can be told from their neighbours.
-    const double multiple = step / quantum;
-    if (multiple > kMostMultiple) {
-      break;
-    }
-    ++tried;
-    const double nearest = std::round(multiple);
-    if (nearest >= 1.0 && std::abs(multiple - nearest) < kWholeTolerance) {
-      ++whole;
-      quantum += (step / nearest - quantum) / static_cast<double>(whole);
+double rms_volts(std::span<const AxisRecord> records) {
+  double sum = 0.0;
+  double rows = 0.0;
+  for (const AxisRecord& record : records) {
+    for (const double volts : record.volts) {
+      sum += volts * volts;
+      rows += 1.0;
     }
   }
-  const bool is_whole = static_cast<double>(whole) >= kWholeShare * static_cast<double>(tried);
-  return tried >= kFewestSteps && is_whole ? std::optional(quantum) : std::nullopt;
+  return std::sqrt(sum / std::max(rows, 1.0));
 }
 
 }  // namespace
@@ -76,8 +63,15 @@ FittedParameter measure_count(const AxisProblem& problem, const FitOptions& opti
   }
   const auto quantum = quantum_of(problem.records().front().measured);
   if (!quantum) {
-    parameter.verdict = Verdict::kUnidentified;
-    parameter.why = "the measured values are not whole multiples of anything";
+    // Another machine's count would round every prediction by what this one does not.
+    if (const auto step = smallest_step(problem.records().front().measured)) {
+      encoder.mm_per_count = std::copysign(*step, encoder.mm_per_count);
+      parameter.value = encoder.mm_per_count * 1e3;
+    }
+    parameter.verdict = Verdict::kUncertain;
+    parameter.why =
+        "the measured values are not whole multiples of anything; this is the smallest "
+        "step among them";
     return parameter;
   }
   encoder.mm_per_count = std::copysign(*quantum, encoder.mm_per_count);
@@ -94,10 +88,8 @@ std::vector<FittedParameter> measure_gains(const AxisProblem& problem, const Fit
   }
   const hal::mujoco::AxisParams& axis = machine.table.axis[problem.axis()];
   GainFit fit = fit_gains(problem.records(), axis.mm_per_s_per_volt(), machine.period);
-  fit.gains.kp = std::max(fit.gains.kp, 0.0);
-  fit.gains.kd = std::max(fit.gains.kd, 0.0);
-  fit.gains.kf = std::max(fit.gains.kf, 0.0);
   motion::Gains& servo = machine.servo[problem.axis()];
+  const bool is_law = fit.rms_V <= kPoorLaw * rms_volts(problem.records()) + kFineVolts;
   const std::string section = problem.axis() == hal::kX ? "servo.x." : "servo.y.";
   for (const Gain& gain : kGains) {
     FittedParameter& parameter = parameters.emplace_back();
@@ -110,8 +102,15 @@ std::vector<FittedParameter> measure_gains(const AxisProblem& problem, const Fit
       parameter.verdict = Verdict::kFixed;
       parameter.sigma = 0.0;
     } else if (parameter.relative < kMostRelative) {
-      parameter.verdict = Verdict::kMeasured;
+      parameter.verdict = is_law ? Verdict::kMeasured : Verdict::kUncertain;
       servo.*gain.field = parameter.value = fit.gains.*gain.field;
+      if (!is_law) {
+        parameter.why = "the drive commands follow another law than Kp, Kd, Kf, Ka";
+      } else if (parameter.value < 0.0 && gain.field == &motion::Gains::kp) {
+        parameter.verdict = Verdict::kUncertain;
+        parameter.why = "is below 0, which makes a loop unstable: is it a drive in torque mode?";
+        servo.*gain.field = parameter.value = 0.0;
+      }
     } else {
       parameter.verdict = Verdict::kUnidentified;
       parameter.why = "the drive commands do not show it";
@@ -128,7 +127,8 @@ GainFit fit_gains(std::span<const AxisRecord> records, double mm_per_s_per_volt,
   double rows = 0.0;
   for (const AxisRecord& record : records) {
     for (std::size_t k = 1; k < record.volts.size(); ++k) {
-      if (std::abs(record.volts[k]) > 0.999 * motion::kMaxVolts) {
+      if (std::abs(record.volts[k]) > 0.999 * motion::kMaxVolts || !record.counts(k) ||
+          !record.counts(k - 1)) {
         continue;
       }
       const motion::Reference& reference = record.command[k];
@@ -148,30 +148,10 @@ GainFit fit_gains(std::span<const AxisRecord> records, double mm_per_s_per_volt,
   const Row gains = solve_symmetric(normal, right);
   const double left = std::max(square - right.dot(gains), 0.0) / std::max(rows - kUnknowns, 1.0);
   const Row sigma = (normal.inverse().diagonal() * left).cwiseSqrt();
-  return {{gains[0], gains[1], gains[2], gains[3], gains[4]},
-          {sigma[0], sigma[1], sigma[2], sigma[3], sigma[4]},
-          std::sqrt(left) / std::abs(mm_per_s_per_volt)};
-}
-
-std::optional<double> quantum_of(std::span<const double> values) {
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double step = std::abs(values[k] - values[k - 1]);
-    if (step > kNoStep) {
-      steps.push_back(step);
-    }
-  }
-  if (steps.size() < kFewestSteps) {
-    return std::nullopt;
-  }
-  std::ranges::sort(steps);
-  // The very smallest may be a stray; a fast motion has few that are small.
-  for (const std::size_t place : {std::size_t{0}, steps.size() / 1000, steps.size() / 200}) {
-    if (const auto quantum = refined(steps, steps[place])) {
-      return quantum;
-    }
-  }
-  return std::nullopt;
+  const auto as_gains = [](const Row& row) {
+    return motion::Gains{.kp = row[0], .kd = row[1], .kf = row[2], .ka = row[3], .trim_V = row[4]};
+  };
+  return {as_gains(gains), as_gains(sigma), std::sqrt(left) / std::abs(mm_per_s_per_volt)};
 }
 
 }  // namespace twin::studies::identify

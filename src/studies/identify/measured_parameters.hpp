@@ -9,6 +9,7 @@
 #include "motion/motion_settings.hpp"
 #include "studies/identify/axis_fit.hpp"
 #include "studies/identify/axis_problem.hpp"
+#include "studies/identify/quantum.hpp"
 
 namespace twin::studies::identify {
 
@@ -24,14 +25,6 @@ struct GainFit {
 /// Rows at the limit of +-10 V are left out. Every record must have volts.
 /// @param mm_per_s_per_volt  V-REF scale s [mm/s/V]  @param period  T [s]
 GainFit fit_gains(std::span<const AxisRecord> records, double mm_per_s_per_volt, double period);
-
-/// Distance between the values that a rounded signal can have, as an encoder's counts are.
-///
-/// The smallest steps of the signal are taken for the quantum; it is accepted where nearly all
-/// other steps are whole multiples of it, and then refined over all of them.
-/// @param values  in the order of time
-/// @returns the quantum in the values' unit, or nothing for a signal that is not rounded
-std::optional<double> quantum_of(std::span<const double> values);
 
 /// Reads the encoder's count off the first record. Where the record shows it, the machine gets it.
 FittedParameter measure_count(const AxisProblem& problem, const FitOptions& options,

@@ -5,27 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
 
 #include "results/trace/csv_reader.hpp"
+#include "studies/identify/recording_checks.hpp"
 
 namespace twin::studies::identify {
 namespace {
 
+constexpr double kJump = 50.0;                // rows that time jumps over where a recording ends
 constexpr double kUnevenShare = 0.02;         // of the period, by which a row may be off
 constexpr double kShortestPeriod = 0.125e-3;  // of an interpolator [s]
 constexpr double kLongestPeriod = 4e-3;       // [s]
 constexpr std::size_t kFewestRows = 200;
-constexpr double kLeastMotion = 0.02;     // an axis that moves less stands still [mm]
-constexpr double kSmallMotion = 1.0;      // a whole program of less may be in metres [mm]
-constexpr double kFastShare = 20.0;       // of the machine's limit, which no true command exceeds
-constexpr double kLeastLikeness = 0.9;    // correlation of command and measured
-constexpr double kMostScaleError = 0.05;  // of measured against command
-constexpr double kMostVolts = 15.0;       // beyond the converter's range [V]
-constexpr double kRougher = 5.0;          // than measured, a command seems to be the wrong one
-
-tl::unexpected<Error> about(const std::filesystem::path& file, std::string message, int line = 0) {
-  return tl::unexpected<Error>(Error{ErrorCode::kFile, std::move(message), file.string(), line, 0});
-}
 
 /// The signals that the file has, or the error that says what is missing.
 Expected<std::vector<std::size_t>> present_signals(const results::CsvReader& reader,
@@ -44,8 +38,9 @@ Expected<std::vector<std::size_t>> present_signals(const results::CsvReader& rea
   bool is_complete = want(kTime);
   bool has_axis = false;
   for (const std::size_t first : {kXCommand, kYCommand}) {
-    const bool is_named = columns[first].is_required || columns[first + 1].is_required ||
-                          columns[first + 2].is_required;
+    const auto of_axis = std::span(columns).subspan(first, kSignalsOfAxis);
+    const bool is_named =
+        std::ranges::any_of(of_axis, [](const Column& column) { return column.is_required; });
     const bool has_both = reader.has(columns[first].name) && reader.has(columns[first + 1].name);
     if (has_both) {
       present.push_back(first);
@@ -55,10 +50,17 @@ Expected<std::vector<std::size_t>> present_signals(const results::CsvReader& rea
       is_complete = want(first) && is_complete;
       is_complete = want(first + 1) && is_complete;
     }
-    if (has_both && reader.has(columns[first + 2].name)) {
-      present.push_back(first + 2);
-    } else if (columns[first + 2].is_required) {
-      is_complete = want(first + 2) && is_complete;
+    for (std::size_t signal = first + 2; signal < first + kSignalsOfAxis; ++signal) {
+      if (has_both && !columns[signal].name.empty() && reader.has(columns[signal].name)) {
+        present.push_back(signal);
+      } else if (columns[signal].is_required) {
+        is_complete = want(signal) && is_complete;
+      }
+    }
+    if (columns[first + 3].is_required && columns[first + 4].is_required) {
+      return fail(ErrorCode::kUsage,
+                  fmt::format("--columns: {} and {} are the same twice; name one",
+                              kSignalNames[first + 3], kSignalNames[first + 4]));
     }
   }
   if (!has_axis && is_complete) {
@@ -80,13 +82,15 @@ std::vector<double>& signal_of(Recording& recording, std::vector<double>& time,
     return time;
   }
   AxisSignals& axis = recording.axis[signal >= kYCommand ? hal::kY : hal::kX];
-  switch ((signal - 1) % 3) {
+  switch ((signal - 1) % kSignalsOfAxis) {
     case 0:
       return axis.command;
     case 1:
       return axis.measured;
-    default:
+    case 2:
       return axis.volts;
+    default:
+      return axis.force;
   }
 }
 
@@ -100,15 +104,25 @@ Expected<void> check_period(double period, const std::filesystem::path& file,
     return {};
   }
   const char* const unit = period > 50.0 ? "us" : period > kLongestPeriod ? "ms" : "s";
-  return about(file,
-               fmt::format("rows are {:g} s apart by column {}, not {:g} to {:g} s: is it in "
-                           "{}? then say --columns t={}:{}",
-                           period, column, kShortestPeriod, kLongestPeriod, unit, column, unit));
+  return about(
+      file,
+      fmt::format("rows are {:g} s apart by column {}, not {:g} to {:g} s: is it in "
+                  "{}? then say --columns t={}:{}; if it counts rows of 2 ms, t={}:2ms",
+                  period, column, kShortestPeriod, kLongestPeriod, unit, column, unit, column));
 }
 
-/// The period, by the median of the rows' distances; each must be near it.
-Expected<double> period_of(const std::vector<double>& time, const std::filesystem::path& file,
-                           const std::string& column) {
+/// Times that go on evenly, and their place in the file.
+struct Evenly {
+  std::size_t first = 0;
+  std::size_t rows = 0;
+  double period = 0.0;  // [s]
+};
+
+/// Cuts time where it jumps. The period is the median of the rows' distances; within a piece each
+/// must be near it.
+Expected<std::vector<Evenly>> cut_where_time_jumps(const std::vector<double>& time,
+                                                   const std::filesystem::path& file,
+                                                   const std::string& column) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < time.size(); ++k) {
     steps.push_back(time[k] - time[k - 1]);
@@ -118,7 +132,12 @@ Expected<double> period_of(const std::vector<double>& time, const std::filesyste
   std::ranges::nth_element(sorted, middle);
   const double median = *middle;
   TWIN_CHECK(check_period(median, file, column));
+  std::vector<Evenly> pieces{{0, 1, 0.0}};
   for (std::size_t k = 0; k < steps.size(); ++k) {
+    if (std::abs(steps[k]) > kJump * median) {
+      pieces.push_back({k + 1, 1, 0.0});
+      continue;
+    }
     if (std::abs(steps[k] - median) > kUnevenShare * median) {
       return about(file,
                    fmt::format("time is uneven: column {} goes on by {:g} s here and by {:g} s "
@@ -126,168 +145,22 @@ Expected<double> period_of(const std::vector<double>& time, const std::filesyste
                                column, steps[k], median),
                    static_cast<int>(k) + 3);
     }
+    ++pieces.back().rows;
   }
-  const double period = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  return std::round(period * 1e9) / 1e9;
+  for (Evenly& piece : pieces) {
+    const double length = time[piece.first + piece.rows - 1] - time[piece.first];
+    piece.period = std::round(length / static_cast<double>(piece.rows - 1) * 1e9) / 1e9;
+  }
+  return pieces;
 }
 
-struct Likeness {
-  double correlation = 0.0;
-  double slope = 0.0;  // of measured over command
+/// The signals of a file, all rows.
+struct Rows {
+  std::vector<double> time;
+  Recording signals;
 };
 
-Likeness likeness(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto n = static_cast<double>(a.size());
-  double mean_a = 0.0;
-  double mean_b = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    mean_a += a[k] / n;
-    mean_b += b[k] / n;
-  }
-  double aa = 0.0;
-  double ab = 0.0;
-  double bb = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    aa += (a[k] - mean_a) * (a[k] - mean_a);
-    ab += (a[k] - mean_a) * (b[k] - mean_b);
-    bb += (b[k] - mean_b) * (b[k] - mean_b);
-  }
-  return {aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0, aa > 0.0 ? ab / aa : 0.0};
-}
-
-double range(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax_element(values);
-  return *high - *low;
-}
-
-double peak_velocity(const std::vector<double>& positions, double period) {
-  double peak = 0.0;
-  for (std::size_t k = 1; k < positions.size(); ++k) {
-    peak = std::max(peak, std::abs(positions[k] - positions[k - 1]) / period);
-  }
-  return peak;
-}
-
-/// RMS second difference [mm].
-double roughness(const std::vector<double>& positions) {
-  double sum = 0.0;
-  for (std::size_t k = 2; k < positions.size(); ++k) {
-    const double second = positions[k] - 2.0 * positions[k - 1] + positions[k - 2];
-    sum += second * second;
-  }
-  return std::sqrt(sum / static_cast<double>(positions.size()));
-}
-
-/// The checks of one axis, with the names of its columns for the messages.
-struct AxisCheck {
-  const Recording& recording;
-  const AxisSignals& signals;
-  const Column* columns;  // command, measured, volts
-
-  tl::unexpected<Error> refuse(std::string message) const {
-    return about(recording.file, std::move(message));
-  }
-
-  Expected<void> units(const Limits& limits) const {
-    const double fastest = peak_velocity(signals.command, recording.period);
-    if (fastest > kFastShare * limits.feedrate) {
-      return refuse(
-          fmt::format("column {} moves at up to {:.4g} mm/s, {:.0f} times the machine's "
-                      "largest feedrate: is it in um ({}:um), or the time in ms?",
-                      columns[0].name, fastest, fastest / limits.feedrate, columns[0].name));
-    }
-    const double slope = likeness(signals.command, signals.measured).slope;
-    for (const double factor : {1000.0, -1000.0, 0.001, -0.001}) {
-      if (std::abs(slope / factor - 1.0) < 0.3) {
-        return refuse(
-            fmt::format("column {} moves {:.4g} times as far as column {}: their units "
-                        "differ; say which is in mm, um or m ({}:{})",
-                        columns[1].name, slope, columns[0].name, columns[1].name,
-                        std::abs(factor) > 1.0 ? "um" : "m"));
-      }
-    }
-    return {};
-  }
-
-  Expected<void> same_signal() const {
-    const Likeness like = likeness(signals.command, signals.measured);
-    if (std::abs(like.correlation) < kLeastLikeness) {
-      return refuse(
-          fmt::format("column {} does not follow column {} (correlation {:.2f}): is it "
-                      "the measured position of that axis?",
-                      columns[1].name, columns[0].name, like.correlation));
-    }
-    if (std::abs(like.slope - 1.0) > kMostScaleError) {
-      return refuse(fmt::format(
-          "column {} moves {:.3g} times as far as column {}{}", columns[1].name, like.slope,
-          columns[0].name,
-          like.slope < 0.0 ? ": its sign is turned round" : ": are both in the same unit?"));
-    }
-    return {};
-  }
-
-  Expected<void> volts() const {
-    if (signals.volts.empty()) {
-      return {};
-    }
-    const double most = std::max(std::abs(*std::ranges::min_element(signals.volts)),
-                                 std::abs(*std::ranges::max_element(signals.volts)));
-    if (most > kMostVolts) {
-      return refuse(fmt::format("column {} reaches {:.4g} V: is it in mV ({}:mV)?", columns[2].name,
-                                most, columns[2].name));
-    }
-    if (!(range(signals.volts) > 0.0)) {
-      return refuse(fmt::format("column {} never changes, though the axis moves", columns[2].name));
-    }
-    return {};
-  }
-};
-
-/// The checks of a recording that was read; sets has_moved.
-Expected<void> check_recording(Recording& recording, const ColumnMap& columns,
-                               const Limits& limits) {
-  double farthest = 0.0;
-  for (const hal::Axis axis : {hal::kX, hal::kY}) {
-    const AxisSignals& signals = recording.axis[axis];
-    const Column* const names = &columns[axis == hal::kX ? kXCommand : kYCommand];
-    if (!signals.is_recorded()) {
-      continue;
-    }
-    const double moved = std::max(range(signals.command), range(signals.measured));
-    farthest = std::max(farthest, moved);
-    recording.has_moved[axis] = moved >= kLeastMotion;
-    if (!recording.has_moved[axis]) {
-      recording.notes.push_back(fmt::format("{}: {} moves by {:.3g} mm only; not identified",
-                                            recording.file.filename().string(), names[0].name,
-                                            moved));
-      continue;
-    }
-    const AxisCheck check{recording, signals, names};
-    TWIN_CHECK(check.units(limits));
-    TWIN_CHECK(check.same_signal());
-    TWIN_CHECK(check.volts());
-    if (roughness(signals.command) > kRougher * roughness(signals.measured)) {
-      recording.notes.push_back(fmt::format("{}: {} is much rougher than {}; are they swapped?",
-                                            recording.file.filename().string(), names[0].name,
-                                            names[1].name));
-    }
-  }
-  if (farthest < kSmallMotion) {
-    const Column& column = columns[recording.axis[hal::kX].is_recorded() ? kXCommand : kYCommand];
-    return about(
-        recording.file,
-        farthest > 0.0
-            ? fmt::format("no axis moves by more than {:.3g} mm: is column {} in m ({}:m)?",
-                          farthest, column.name, column.name)
-            : "no axis moves");
-  }
-  return {};
-}
-
-}  // namespace
-
-Expected<Recording> read_recording(const std::filesystem::path& file, const ColumnMap& columns,
-                                   const Limits& limits) {
+Expected<Rows> read_rows(const std::filesystem::path& file, const ColumnMap& columns) {
   TWIN_TRY(results::CsvReader reader, results::CsvReader::open(file));
   TWIN_TRY(const std::vector<std::size_t> signals, present_signals(reader, columns, file));
   std::vector<std::string_view> names;
@@ -298,24 +171,93 @@ Expected<Recording> read_recording(const std::filesystem::path& file, const Colu
     names.emplace_back(columns[signal].name);
   }
   TWIN_CHECK(reader.select(names));
-  Recording recording;
-  recording.file = file;
-  std::vector<double> time;
+  Rows rows;
+  for (const std::size_t signal : signals) {
+    AxisSignals& axis = rows.signals.axis[signal >= kYCommand ? hal::kY : hal::kX];
+    if (signal == kXVolts || signal == kYVolts) {
+      axis.volts_in = columns[signal].quantity;
+    } else if (signal == kXTorque || signal == kYTorque) {
+      axis.force_in = Quantity::kTorque;
+    }
+  }
   const auto take = [&](std::span<const double> row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::size_t signal = signals[i];
-      signal_of(recording, time, signal).push_back(row[i] * columns[signal].to_base);
+      signal_of(rows.signals, rows.time, signal).push_back(row[i] * columns[signal].to_base);
     }
   };
   TWIN_CHECK(reader.for_each_row(take));
-  recording.rows = time.size();
-  if (time.size() < kFewestRows) {
-    return about(file, fmt::format("{} rows are too few to identify anything; {} at least",
-                                   time.size(), kFewestRows));
+  return rows;
+}
+
+/// One piece of the rows of a file.
+Recording piece_of(const Rows& rows, const Evenly& piece, const std::filesystem::path& file) {
+  Recording recording;
+  recording.file = file;
+  recording.rows = piece.rows;
+  recording.period = piece.period;
+  recording.first_row = piece.first;
+  const auto cut = [&](const std::vector<double>& all) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(all.empty() ? 0 : piece.first);
+    return std::vector<double>(begin,
+                               begin + static_cast<std::ptrdiff_t>(all.empty() ? 0 : piece.rows));
+  };
+  for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
+    const AxisSignals& all = rows.signals.axis[axis];
+    recording.axis[axis] = {cut(all.command), cut(all.measured), cut(all.volts),
+                            all.volts_in,     cut(all.force),    all.force_in};
   }
-  TWIN_TRY(recording.period, period_of(time, file, columns[kTime].name));
-  TWIN_CHECK(check_recording(recording, columns, limits));
   return recording;
+}
+
+}  // namespace
+
+Expected<std::vector<Recording>> read_recordings(const std::filesystem::path& file,
+                                                 const ColumnMap& columns, const Limits& limits) {
+  TWIN_TRY(const Rows rows, read_rows(file, columns));
+  if (rows.time.size() < kFewestRows) {
+    return about(file, fmt::format("{} rows are too few to identify anything; {} at least",
+                                   rows.time.size(), kFewestRows));
+  }
+  TWIN_TRY(const auto pieces, cut_where_time_jumps(rows.time, file, columns[kTime].name));
+  std::vector<Recording> recordings;
+  std::vector<std::string> notes;
+  std::optional<Error> refused;
+  for (const Evenly& piece : pieces) {
+    if (piece.rows < kFewestRows) {
+      notes.push_back(fmt::format("{}: {} rows from line {} on are too few and left out",
+                                  file.filename().string(), piece.rows, piece.first + 2));
+      continue;
+    }
+    Recording recording = piece_of(rows, piece, file);
+    if (auto checked = check_recording(recording, columns, limits); !checked) {
+      if (pieces.size() == 1) {
+        return tl::unexpected(checked.error());
+      }
+      refused = checked.error();
+      notes.push_back(fmt::format("{}: what begins in line {} is left out: {}",
+                                  file.filename().string(), piece.first + 2, refused->message));
+      continue;
+    }
+    recordings.push_back(std::move(recording));
+  }
+  if (recordings.empty()) {
+    return refused ? Expected<std::vector<Recording>>(tl::unexpected(*refused))
+                   : about(file, fmt::format("time jumps so often that no {} rows go on evenly",
+                                             kFewestRows));
+  }
+  std::ranges::move(notes, std::back_inserter(recordings.front().notes));
+  return recordings;
+}
+
+Expected<Recording> read_recording(const std::filesystem::path& file, const ColumnMap& columns,
+                                   const Limits& limits) {
+  TWIN_TRY(auto recordings, read_recordings(file, columns, limits));
+  if (recordings.size() > 1) {
+    return about(file, "time jumps here: the file has several recordings",
+                 static_cast<int>(recordings[1].first_row) + 2);
+  }
+  return std::move(recordings.front());
 }
 
 }  // namespace twin::studies::identify

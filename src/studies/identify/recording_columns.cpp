@@ -1,8 +1,12 @@
 #include "studies/identify/recording_columns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <vector>
 
 #include "config/nearest_name.hpp"
@@ -12,43 +16,74 @@ namespace {
 
 struct Unit {
   std::string_view name;
-  char quantity;  // s time, m length, V voltage
+  Quantity quantity;
   double to_base;
 };
 
-constexpr std::array<Unit, 8> kUnits{{{"s", 's', 1.0},
-                                      {"ms", 's', 1e-3},
-                                      {"us", 's', 1e-6},
-                                      {"m", 'm', 1e3},
-                                      {"mm", 'm', 1.0},
-                                      {"um", 'm', 1e-3},
-                                      {"V", 'V', 1.0},
-                                      {"mV", 'V', 1e-3}}};
+constexpr std::array kUnits{Unit{"s", Quantity::kTime, 1.0},
+                            Unit{"ms", Quantity::kTime, 1e-3},
+                            Unit{"us", Quantity::kTime, 1e-6},
+                            Unit{"m", Quantity::kLength, 1e3},
+                            Unit{"mm", Quantity::kLength, 1.0},
+                            Unit{"um", Quantity::kLength, 1e-3},
+                            Unit{"V", Quantity::kVoltage, 1.0},
+                            Unit{"mV", Quantity::kVoltage, 1e-3},
+                            Unit{"mm/s", Quantity::kSpeed, 1.0},
+                            Unit{"mm_per_s", Quantity::kSpeed, 1.0},
+                            Unit{"m/s", Quantity::kSpeed, 1e3},
+                            Unit{"m_per_s", Quantity::kSpeed, 1e3},
+                            Unit{"rpm", Quantity::kRotationSpeed, 1.0},
+                            Unit{"N", Quantity::kForce, 1.0},
+                            Unit{"kN", Quantity::kForce, 1e3},
+                            Unit{"N_m", Quantity::kTorque, 1.0},
+                            Unit{"Nm", Quantity::kTorque, 1.0},
+                            Unit{"mN_m", Quantity::kTorque, 1e-3}};
 
-char quantity_of(std::size_t signal) {
-  if (signal == kTime) {
-    return 's';
-  }
-  return signal == kXVolts || signal == kYVolts ? 'V' : 'm';
+/// What a signal is measured in where no unit is named.
+constexpr std::array<Quantity, kSignalsOfAxis> kQuantities{
+    Quantity::kLength, Quantity::kLength, Quantity::kVoltage, Quantity::kForce, Quantity::kTorque};
+
+Quantity quantity_of(std::size_t signal) {
+  return signal == kTime ? Quantity::kTime : kQuantities[(signal - 1) % kSignalsOfAxis];
+}
+
+bool can_be_in(std::size_t signal, Quantity quantity) {
+  const Quantity usual = quantity_of(signal);
+  return quantity == usual ||
+         (usual == Quantity::kVoltage &&
+          (quantity == Quantity::kSpeed || quantity == Quantity::kRotationSpeed));
+}
+
+/// The period in seconds that "2ms" names; nothing for another text.
+std::optional<double> period_named(const std::string& text) {
+  char* rest = nullptr;
+  const double number = std::strtod(text.c_str(), &rest);
+  const auto unit = std::ranges::find(kUnits, std::string_view(rest), &Unit::name);
+  const bool is_period = rest != text.c_str() && number > 0.0 && std::isfinite(number) &&
+                         unit != kUnits.end() && unit->quantity == Quantity::kTime;
+  return is_period ? std::optional(number * unit->to_base) : std::nullopt;
 }
 
 /// Takes ":UNIT" off the end of a column's name.
-Expected<double> take_unit(std::string& name, std::size_t signal) {
-  const std::size_t colon = name.rfind(':');
+Expected<void> take_unit(Column& column, std::size_t signal) {
+  const std::size_t colon = column.name.rfind(':');
   if (colon == std::string::npos) {
-    return 1.0;
+    return {};
   }
-  const std::string unit = name.substr(colon + 1);
+  const std::string unit = column.name.substr(colon + 1);
+  const auto period = signal == kTime ? period_named(unit) : std::nullopt;
   const auto found = std::ranges::find(kUnits, std::string_view(unit), &Unit::name);
-  if (found == kUnits.end()) {
-    return 1.0;  // part of the name
+  if (found == kUnits.end() && !period) {
+    return {};  // part of the name
   }
-  if (found->quantity != quantity_of(signal)) {
+  if (!period && !can_be_in(signal, found->quantity)) {
     return fail(ErrorCode::kUsage,
                 fmt::format("--columns: {} cannot be in {}", kSignalNames[signal], unit));
   }
-  name.resize(colon);
-  return found->to_base;
+  column.name.resize(colon);
+  column.to_base = period ? *period : found->to_base;
+  column.quantity = period ? Quantity::kTime : found->quantity;
+  return {};
 }
 
 Expected<void> parse_one(std::string_view text, ColumnMap& map) {
@@ -57,19 +92,16 @@ Expected<void> parse_one(std::string_view text, ColumnMap& map) {
   const auto found = std::ranges::find(kSignalNames, signal);
   if (equals == std::string_view::npos || found == kSignalNames.end()) {
     const std::vector<std::string> names(kSignalNames.begin(), kSignalNames.end());
-    return fail(
-        ErrorCode::kUsage,
-        fmt::format("--columns: '{}' is not SIGNAL=COLUMN with one of t, x_cmd, x_meas, x_V, "
-                    "y_cmd, y_meas, y_V{}",
-                    text, config::did_you_mean(signal, names)));
+    return fail(ErrorCode::kUsage,
+                fmt::format("--columns: '{}' is not SIGNAL=COLUMN with one of {}{}", text,
+                            fmt::join(kSignalNames, ", "), config::did_you_mean(signal, names)));
   }
   const auto index = static_cast<std::size_t>(found - kSignalNames.begin());
-  Column column{std::string(text.substr(equals + 1)), 1.0, true};
-  TWIN_TRY(const auto to_base, take_unit(column.name, index));
+  Column column{std::string(text.substr(equals + 1)), 1.0, true, quantity_of(index)};
+  TWIN_CHECK(take_unit(column, index));
   if (column.name.empty()) {
     return fail(ErrorCode::kUsage, fmt::format("--columns: no column is named for {}", signal));
   }
-  column.to_base = to_base;
   map[index] = column;
   return {};
 }
@@ -77,13 +109,19 @@ Expected<void> parse_one(std::string_view text, ColumnMap& map) {
 }  // namespace
 
 ColumnMap trace_columns() {
-  return {{{"t_s", 1.0, true},
-           {"x_cmd_mm"},
-           {"x_enc_mm"},
-           {"x_drive_V"},
-           {"y_cmd_mm"},
-           {"y_enc_mm"},
-           {"y_drive_V"}}};
+  ColumnMap map;
+  for (std::size_t signal = 0; signal < kSignals; ++signal) {
+    map[signal].quantity = quantity_of(signal);
+  }
+  map[kTime].name = "t_s";
+  map[kTime].is_required = true;
+  map[kXCommand].name = "x_cmd_mm";
+  map[kXMeasured].name = "x_enc_mm";
+  map[kXVolts].name = "x_drive_V";
+  map[kYCommand].name = "y_cmd_mm";
+  map[kYMeasured].name = "y_enc_mm";
+  map[kYVolts].name = "y_drive_V";
+  return map;
 }
 
 Expected<ColumnMap> parse_columns(std::string_view text) {

@@ -131,7 +131,7 @@ Expected<Reproduction> reproduce(const Request& request) {
   result.variants[0].name = "as_published";
   result.variants[0].title = "as published";
   result.variants[1].name = "defaults";
-  result.variants[1].title = "defaults of this program";
+  result.variants[1].title = "the paper's planner with the other defaults of this program";
   for (std::size_t variant = 0; variant < first_jobs.size(); ++variant) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       result.variants[variant].answers.push_back(

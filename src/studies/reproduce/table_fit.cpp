@@ -6,6 +6,7 @@
 #include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -15,11 +16,13 @@
 #include "config/find_file.hpp"
 #include "config/machine_file.hpp"
 #include "core/must_finish.hpp"
+#include "core/sha256.hpp"
 #include "core/stop_wish.hpp"
 #include "core/units.hpp"
 #include "studies/identify/minimise.hpp"
 #include "studies/identify/parallel_for.hpp"
 #include "studies/identify/parameter.hpp"
+#include "studies/identify/search_checkpoint.hpp"
 #include "studies/identify/table_run.hpp"
 #include "studies/reproduce/published_columns.hpp"
 #include "studies/reproduce/reproduction.hpp"
@@ -62,6 +65,7 @@ constexpr double kLargestKf = 0.6;  // of the planning model, that is tried
 constexpr int kBitsOfKf = 12;       // a few thousandths
 constexpr std::size_t kErrors = 6;  // of a row: all columns but the time, which comes last
 constexpr std::size_t kPopulation = 16;
+constexpr unsigned kAllCores = 0;
 constexpr double kMoved = 0.1;  // of a range, to see whether a parameter matters
 
 /// The measured rows with their programs and the settings they are run with.
@@ -138,23 +142,29 @@ struct Stage {
   std::size_t repeats;
   double (*cost)(double ours, double published);
   double weight_of_first;  // of the costs of the first run alone
+  double physics_step;     // at least so long [s]
 };
-constexpr Stage kWide{0.6, 0.12, 2, smooth_cost, 0.0};
-constexpr Stage kNear{0.4, 0.05, 3, share_cost, 0.4};
+constexpr Stage kWide{0.6, 0.12, 1, smooth_cost, 0.0, 0.125e-3};
+constexpr Stage kNear{0.4, 0.05, 3, share_cost, 0.4, 0.0};
 
-/// @param stop  if set, the rest is left out and the cost says nothing; may be null
+/// @param stop     if set, the rest is left out and the cost says nothing; may be null
+/// @param threads  0: one for each core
 double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const MachineFile& machine,
-               const Stage& stage, const std::atomic<bool>* stop) {
+               const Stage& stage, const std::atomic<bool>* stop, unsigned threads) {
   const std::size_t n = stage.repeats;
   std::vector<std::array<double, kErrors>> errors(runs.size() * n);
-  studies::identify::parallel_for(errors.size(), [&](std::size_t i) {
-    if (stop != nullptr && stop->load()) {
-      return;
-    }
-    MachineFile file = machine;
-    file.table = with_phases_of_repeat(machine.table, static_cast<int>(i % n));
-    errors[i] = errors_um(runs[i / n].run(file));
-  });
+  studies::identify::parallel_for(
+      errors.size(),
+      [&](std::size_t i) {
+        if (stop != nullptr && stop->load()) {
+          return;
+        }
+        MachineFile file = machine;
+        file.table = with_phases_of_repeat(machine.table, static_cast<int>(i % n));
+        file.table.physics_step = std::max(file.table.physics_step, stage.physics_step);
+        errors[i] = errors_um(runs[i / n].run(file));
+      },
+      threads);
   double cost = 0.0;
   for (std::size_t row = 0; row < runs.size(); ++row) {
     for (std::size_t k = 0; k < kErrors; ++k) {
@@ -191,6 +201,85 @@ Expected<MachineFile> fit_planning(const Rows& rows, const MachineFile& start) {
   return result ? with_planning_kf(start, kf) : result;
 }
 
+using Cost = std::function<double(std::span<const double>, const Stage&, unsigned)>;
+
+/// What names a search, its checkpoint, and how it is done.
+struct StagedSearch {
+  const std::string& name;
+  const std::optional<studies::identify::Checkpoint>& checkpoint;
+  const TableFitOptions& options;
+};
+
+/// A text that no fit with another result has.
+std::string name_of_fit(const MachineFile& start, const TableFitOptions& options) {
+  return fmt::format("tables, seed {}, {} evaluations, start {:.12}", options.seed,
+                     options.evaluations, sha256(config::to_toml(start)));
+}
+
+/// How one stage searches; its checkpoints go to the file of the options, where there is one.
+studies::identify::MinimiseOptions options_of_stage(const StagedSearch& search, int number,
+                                                    std::optional<Error>& failure) {
+  const Stage& stage = number == 0 ? kWide : kNear;
+  studies::identify::MinimiseOptions options;
+  options.spread = stage.spread;
+  options.population = kPopulation;
+  options.evaluations =
+      static_cast<std::size_t>(stage.share * static_cast<double>(search.options.evaluations));
+  options.seed = search.options.seed;
+  options.threads = kAllCores;
+  options.stop = search.options.stop;
+  if (search.checkpoint && search.checkpoint->stage == number) {
+    options.resumed = search.checkpoint->state;
+  }
+  if (!search.options.checkpoint.empty()) {
+    options.save = [&search, &failure, number](const studies::identify::SearchState& state) {
+      const auto written = studies::identify::write_checkpoint(search.options.checkpoint,
+                                                               {search.name, number, state});
+      if (!written && !failure) {
+        failure = written.error();
+      }
+    };
+  }
+  return options;
+}
+
+/// Searches stage after stage, from x to x; those before that of the checkpoint are left out.
+Expected<void> search_in_stages(const Cost& cost, const StagedSearch& search,
+                                std::vector<double>& x, TableFit& fit) {
+  double done = 0.0;
+  for (int number = 0; number < 2; ++number) {
+    const Stage& stage = number == 0 ? kWide : kNear;
+    std::optional<Error> failure;
+    studies::identify::MinimiseOptions options = options_of_stage(search, number, failure);
+    options.start = x;
+    if (search.options.progress) {
+      options.progress = [&, begin = done](double share, double least) {
+        search.options.progress(begin + share * stage.share, least);
+      };
+    }
+    done += stage.share;
+    if (search.checkpoint && number < search.checkpoint->stage) {
+      continue;
+    }
+    const double before = number == 0 ? cost(x, kWide, kAllCores) : fit.cost_before;
+    const auto best = studies::identify::minimise(
+        [&](std::span<const double> at) { return cost(at, stage, 1); }, options);
+    if (failure) {
+      return tl::unexpected(*failure);
+    }
+    if (!best.x.empty()) {
+      x = best.x;
+      fit.cost_after = best.cost;
+    }
+    if (best.was_stopped) {
+      fit.was_stopped = true;
+      fit.cost_before = before;
+      break;
+    }
+  }
+  return {};
+}
+
 /// A parameter whose move by a tenth of its range raises the cost by less says nothing: the same
 /// move of the phases alone does as much.
 constexpr double kLeastRise = 0.1;
@@ -220,51 +309,23 @@ double share_cost(double ours, double published) {
 
 Expected<TableFit> fit_tables(const Published& published, const MachineFile& start,
                               const TableFitOptions& options) {
+  const std::string name = name_of_fit(start, options);
+  TWIN_TRY(const auto checkpoint, studies::identify::read_checkpoint(options.checkpoint, name));
   TWIN_TRY(const Rows rows, Rows::create(published));
   TWIN_TRY(const auto parameters, studies::identify::ParameterSet::create(table_parameters()));
   TWIN_TRY(const MachineFile planned, fit_planning(rows, start));
   TWIN_TRY(const std::vector<TableRun> runs, rows.plan(planned));
-  const auto cost = [&](std::span<const double> x, const Stage& stage) {
-    return cost_of(rows, runs, parameters.with_units(planned, x), stage, options.stop);
+  const auto cost = [&](std::span<const double> x, const Stage& stage, unsigned threads) {
+    return cost_of(rows, runs, parameters.with_units(planned, x), stage, options.stop, threads);
   };
   TableFit fit;
+  fit.was_resumed = checkpoint.has_value();
   std::vector<double> x = parameters.units(planned);
-  fit.cost_before = cost(x, kNear);
+  fit.cost_before = cost(x, kNear, kAllCores);
   TWIN_CHECK(check_wish(options.stop, "interrupted: nothing was written"));
   const MustFinish finish;  // from here on there is a best so far
-  double done = 0.0;
-  for (const Stage& stage : {kWide, kNear}) {
-    studies::identify::MinimiseOptions search;
-    search.start = x;
-    search.spread = stage.spread;
-    search.population = kPopulation;
-    search.evaluations =
-        static_cast<std::size_t>(stage.share * static_cast<double>(options.evaluations));
-    search.seed = options.seed;
-    search.stop = options.stop;
-    if (options.progress) {
-      search.progress = [&](double share, double least) {
-        options.progress(done + share * stage.share, least);
-      };
-    }
-    std::optional<double> first;
-    const studies::identify::Minimum best = studies::identify::minimise(
-        [&](std::span<const double> at) {
-          const double known = cost(at, stage);
-          first = first.value_or(known);
-          return known;
-        },
-        search);
-    x = best.x;
-    done += stage.share;
-    fit.cost_after = best.cost;
-    if (best.was_stopped) {
-      fit.was_stopped = true;
-      fit.cost_before = stage.repeats == kNear.repeats ? fit.cost_before : *first;
-      break;
-    }
-  }
-  fit.cost_after = fit.was_stopped ? fit.cost_after : cost(x, kNear);
+  TWIN_CHECK(search_in_stages(cost, {name, checkpoint, options}, x, fit));
+  fit.cost_after = fit.was_stopped ? fit.cost_after : cost(x, kNear, kAllCores);
   if (fit.cost_after > fit.cost_before) {  // the wide stage has left what was better
     x = parameters.units(planned);
     fit.cost_after = fit.cost_before;
@@ -279,9 +340,9 @@ Expected<TableFit> fit_tables(const Published& published, const MachineFile& sta
     if (!fit.was_stopped) {
       std::vector<double> moved = x;
       moved[i] = std::max(x[i] - kMoved, 0.0);
-      const double less = cost(moved, kNear);
+      const double less = cost(moved, kNear, kAllCores);
       moved[i] = std::min(x[i] + kMoved, 1.0);
-      value.rise = std::min(less, cost(moved, kNear)) - fit.cost_after;
+      value.rise = std::min(less, cost(moved, kNear, kAllCores)) - fit.cost_after;
     }
     fit.values.push_back(std::move(value));
   }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,9 +15,10 @@ namespace twin::studies::reproduce {
 
 /// Options of a fit to the published tables.
 struct TableFitOptions {
-  std::size_t evaluations = 1700;  ///< how often the cost is computed, with 2 or 3 runs of each row
+  std::size_t evaluations = 1700;  ///< how often the cost is computed, with 1 or 3 runs of each row
   std::uint32_t seed = 1;
   const std::atomic<bool>* stop = nullptr;       ///< set to end early with the best so far
+  std::filesystem::path checkpoint;              ///< file to go on from and to keep; empty: none
   std::function<void(double, double)> progress;  ///< gets the done share and the least cost
 };
 
@@ -38,6 +40,7 @@ struct TableFit {
   double time_error = 0.0;  ///< RMS over all rows of machining time / published one - 1 [-]
   std::vector<FittedValue> values;
   bool was_stopped = false;
+  bool was_resumed = false;  ///< went on from the checkpoint of a search that was cut off
 };
 
 /// Cost of the difference between our number and the published one. With e = ln(ours / published)
@@ -58,7 +61,7 @@ double share_cost(double ours, double published);
 /// it, and Kf is chosen so that the machining times fit best. Then the table is fitted: each row is
 /// run with the method that it was measured with, on studies::identify::TableRun, and CMA-ES
 /// searches for the smallest sum of the costs of all rows, in two stages:
-///   1. smooth_cost of the mean of two runs, in a wide range around the start;
+///   1. smooth_cost of one run with a coarse physics step, in a wide range around the start;
 ///   2. share_cost of the mean of three runs, plus 0.4 times that of the first run, near the
 ///      result of the first stage.
 /// The runs of a row differ by the phases of with_phases_of_repeat(); the first run has the phases

@@ -22,6 +22,21 @@ TEST(RandomBound, NoPlanIsFasterThanItsBound) {
   }
 }
 
+// With next to no limit of jerk the plan is nearly as fast as the bound.
+TEST(RandomBound, NoPlanOfVeryHighJerkIsFasterThanItsBound) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    const auto blocks = test::random_program(random, 12);
+    for (const double jerk : {1e6, 1e7, 1e9}) {
+      test::PlanSettings settings;
+      settings.path.planner = Planner::kCertified;
+      settings.limits.jerk = jerk;
+      const auto plan = test::plan(blocks, settings);
+      EXPECT_LE(test::bound_of(plan, settings), plan.time * (1.0 + 1e-9)) << seed << " " << jerk;
+    }
+  }
+}
+
 TEST(RandomBound, MoreJerkBringsThePlanCloserToTheBoundAndNeverBelow) {
   double before = 1e9;
   for (const double jerk : {5e4, 5e5, 5e6, 5e7}) {

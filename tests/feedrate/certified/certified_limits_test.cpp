@@ -69,18 +69,48 @@ TEST(CertifiedLimits, EveryAxisIsKeptBetweenTheSamplesByDifferencesOfThePath) {
     const path::PathPoint at = place(fitted, s);
     const Vec3 twist =
         (place(fitted, high).curvature - place(fitted, low).curvature) / (high - low);
-    const double v = zone.limit;
-    const double a = std::min(zone.acceleration, limits.acceleration);
+    const double speeding_up = std::min(zone.acceleration, limits.acceleration);
+    const double braking = std::min(zone.deceleration, limits.acceleration);
     const double j = std::min(zone.jerk, limits.jerk);
-    for (int i = 0; i < 2; ++i) {
-      const double t = std::abs(at.tangent[i]);
-      const double k = std::abs(at.curvature[i]);
-      EXPECT_LE(t * v, limits.axis_feedrate[i] * (1.0 + 1e-6));
-      EXPECT_LE(t * a + k * v * v, limits.axis_acceleration[i] * (1.0 + 1e-6));
-      EXPECT_LE(t * j + 3.0 * k * v * a + std::abs(twist[i]) * v * v * v,
-                limits.axis_jerk[i] * 1.001);
+    for (const double v : {0.5 * zone.limit, zone.limit}) {
+      for (const double a : {speeding_up, 0.0, -braking}) {
+        for (int i = 0; i < 2; ++i) {
+          const double t = at.tangent[i];
+          const double k = at.curvature[i];
+          EXPECT_LE(std::abs(t) * v, limits.axis_feedrate[i] * (1.0 + 1e-6));
+          EXPECT_LE(std::abs(t * a) + std::abs(k) * v * v,
+                    limits.axis_acceleration[i] * (1.0 + 1e-6));
+          EXPECT_LE(std::abs(t) * j + std::abs(3.0 * k * v * a + twist[i] * v * v * v),
+                    limits.axis_jerk[i] * 1.001);
+        }
+      }
     }
   });
+}
+
+// The third derivative of a helix is larger than kappa^2: its axis turns with 1 / c^2.
+TEST(CertifiedLimits, TheJerkOfAxesIsKeptOnASteepHelix) {
+  Limits limits;
+  limits.axis_jerk = {30000.0, 30000.0, 0.0};
+  CertifiedLimits certified(limits, {}, {}, 1e-3);
+  const auto segments = build({test::arc_block({0, 0, 0}, {1, 0, 0}, 0.1, 6.0, true, 50.0, 0.5)});
+  const auto& arc = std::get<path::Arc>(segments.front().geometry);
+  std::vector<LimitZone> zones;
+  certified.append(segments.front(), 0.0, 50.0, zones);
+  double largest = 0.0;
+  for (const LimitZone& zone : zones) {
+    const double s = 0.5 * (zone.begin + zone.end);
+    const double h = 1e-6;
+    const Vec3 twist =
+        (path::point_at(arc, s + h).curvature - path::point_at(arc, s - h).curvature) / (2.0 * h);
+    const double v = zone.limit;
+    for (int i = 0; i < 2; ++i) {
+      largest = std::max(largest, std::abs(path::point_at(arc, s).tangent[i]) * zone.jerk +
+                                      std::abs(twist[i]) * v * v * v);
+    }
+  }
+  EXPECT_LE(largest, 30000.0 * 1.001);
+  EXPECT_GE(largest, 30000.0 * 0.5);
 }
 
 /// A square's corner of 90 degrees rounded by an arc of chords of this radius.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "tests/support/s_curve.hpp"
@@ -14,7 +15,7 @@ using test::log_uniform;
 TEST(AxisLimits, NoneLeaveAZoneAsItIs) {
   EXPECT_FALSE(has_axis_limits({}));
   LimitZone zone{0.0, 1.0, 50.0};
-  keep_axis_limits({Vec3::Ones(), Vec3::Ones(), Vec3::Ones()}, {}, zone);
+  keep_axis_limits({Vec3::Ones(), Vec3::Ones(), Vec3::Ones()}, {}, BendKind::kLasting, zone);
   EXPECT_EQ(zone.limit, 50.0);
   EXPECT_TRUE(std::isinf(zone.acceleration));
   EXPECT_TRUE(std::isinf(zone.jerk));
@@ -26,7 +27,7 @@ TEST(AxisLimits, OnALineEachAxisIsUsedUp) {
   limits.axis_acceleration = {1200.0, 800.0, 0.0};
   limits.axis_jerk = {30000.0, 16000.0, 0.0};
   LimitZone zone{0.0, 1.0, 200.0};
-  keep_axis_limits({{0.6, 0.8, 0.0}, Vec3::Zero(), Vec3::Zero()}, limits, zone);
+  keep_axis_limits({{0.6, 0.8, 0.0}, Vec3::Zero(), Vec3::Zero()}, limits, BendKind::kLasting, zone);
   EXPECT_DOUBLE_EQ(zone.limit, 50.0);
   EXPECT_DOUBLE_EQ(zone.acceleration, 1000.0);
   EXPECT_DOUBLE_EQ(zone.jerk, 20000.0);
@@ -51,19 +52,29 @@ TEST(AxisLimits, AnyMotionWithinAZoneKeepsEveryAxis) {
     bounds.tangent = Vec3(part(), part(), part()).normalized().cwiseAbs();
     bounds.curvature = kappa * Vec3(part(), part(), part()).normalized().cwiseAbs();
     bounds.twist = twist * Vec3(part(), part(), part()).normalized().cwiseAbs();
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds.trend[axis] = static_cast<double>(random() % 3) - 1.0;
+    }
     LimitZone zone{0.0, 1.0, log_uniform(random, 0.1, 200.0)};
-    keep_axis_limits(bounds, limits, zone);
+    keep_axis_limits(bounds, limits, random() % 2 == 0 ? BendKind::kBrief : BendKind::kLasting,
+                     zone);
     ASSERT_GT(zone.limit, 0.0);
     ASSERT_GT(zone.acceleration, 0.0);
+    ASSERT_GT(zone.deceleration, 0.0);
     ASSERT_GT(zone.jerk, 0.0);
     for (int k = 0; k < 20; ++k) {
       const double v = zone.limit * std::abs(part());
-      const double a = std::min(zone.acceleration, limits.acceleration) * part();
+      const double sense = part();
+      const double a =
+          std::min(sense > 0.0 ? zone.acceleration : zone.deceleration, limits.acceleration) *
+          sense;
       const double j = std::min(zone.jerk, limits.jerk) * part();
       for (int axis = 0; axis < 3; ++axis) {
         const double t = bounds.tangent[axis] * part();
         const double c = bounds.curvature[axis] * part();
-        const double w = bounds.twist[axis] * part();
+        const double size = bounds.twist[axis] * part();
+        const double w =
+            bounds.trend[axis] == 0.0 ? size : std::copysign(size, bounds.trend[axis] * c);
         ASSERT_LE(std::abs(t * v), limits.axis_feedrate[axis] * (1.0 + 1e-9));
         ASSERT_LE(std::abs(t * a + c * v * v), limits.axis_acceleration[axis] * (1.0 + 1e-9));
         if (has_jerk) {

@@ -39,6 +39,16 @@ constexpr KnownDefect kKnown[] = {
      [](const Case& made, Measure measure, double) {
        return has_axis_limits(made) && measure == Measure::kTime;
      }},
+    {"the paper's planner misses peaks of the curvature of sharply bent NURBS between its samples",
+     [](const Case& made, Measure measure, double share) {
+       return is_paper(made) &&
+              (measure == Measure::kRawNormal || measure == Measure::kVectorAcceleration) &&
+              share < 1.05;
+     }},
+    {"the paper's planner is slow on curves that it fits through specks beside long blocks",
+     [](const Case& made, Measure measure, double share) {
+       return is_paper(made) && measure == Measure::kTime && share < 1.4;
+     }},
     {"the certified planner: some per cent too much at corners and after a change of the override",
      [](const Case& made, Measure measure, double share) {
        return !is_paper(made) &&

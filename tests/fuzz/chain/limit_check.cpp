@@ -31,6 +31,27 @@ double highest_feedrate(const Case& made) {
   return exceeds ? limit : std::min(limit, programmed * percent / 100.0);
 }
 
+/// Where the programmed path turns back: ends of blocks.
+std::vector<Vec3> turns_back(const MadeProgram& program) {
+  std::vector<Vec3> places;
+  const Shape* before = nullptr;
+  for (const Piece& piece : program.pieces) {
+    const std::vector<Vec3>& points = piece.shape.points;
+    if (points.size() < 2) {
+      continue;
+    }
+    if (before != nullptr) {
+      const auto& old = before->points;
+      const Vec3 in = old.back() - old[old.size() - 2];
+      if (in.dot(points[1] - points[0]) < 0.0) {
+        places.push_back(points.front());
+      }
+    }
+    before = &piece.shape;
+  }
+  return places;
+}
+
 /// Raises the peaks of one place after the other.
 class Peaks {
  public:
@@ -39,6 +60,7 @@ class Peaks {
         period_(made.machine.period),
         feedrate_(highest_feedrate(made)),
         off_(std::clamp(kOffShare * limits_.jerk * std::pow(period_, 3), 1e-12, 4e-9)),
+        turns_back_(turns_back(made.program)),
         shares_(shares) {}
 
   /// @param around  six successive set points
@@ -53,7 +75,7 @@ class Peaks {
             limits_.acceleration * t2);
     }
     look_at_axes(p);
-    if (const auto s = test::lengths_between(p, off_)) {
+    if (const auto s = test::lengths_between(p, off_); s && !may_turn_back(p)) {
       const auto& [a, b, c] = *s;
       raise(Measure::kRawTangential, std::max(std::abs(b - a), std::abs(c - b)) - 4.0 * kRounding,
             limits_.acceleration * t2);
@@ -66,6 +88,22 @@ class Peaks {
   void raise(Measure measure, double value, double allowed) {
     double& share = share_of(shares_, measure);
     share = std::max(std::isnan(share) ? 0.0 : share, value / allowed);
+  }
+
+  /// Whether the path may turn back within a step of these points, unseen by any of them: nobody
+  /// can tell how far it went there.
+  bool may_turn_back(std::span<const Vec3, 6> p) const {
+    if (turns_back_.empty()) {
+      return false;
+    }
+    double step = 0.0;
+    for (std::size_t i = 1; i < p.size(); ++i) {
+      step = std::max(step, (p[i] - p[i - 1]).norm());
+    }
+    return std::any_of(turns_back_.begin(), turns_back_.end(), [&](const Vec3& place) {
+      return std::any_of(p.begin(), p.end(),
+                         [&](const Vec3& point) { return (point - place).norm() <= step; });
+    });
   }
 
   void look_at_axes(std::span<const Vec3, 6> p) {
@@ -92,6 +130,7 @@ class Peaks {
   double period_;
   double feedrate_;
   double off_;
+  std::vector<Vec3> turns_back_;
   Shares& shares_;
 };
 

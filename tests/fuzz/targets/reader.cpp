@@ -6,13 +6,15 @@
 namespace twin::fuzz {
 namespace reader_target {
 
+constexpr std::int64_t kMostLines = 2000;  // that loops may execute again
+
 bool is_sound(const gcode::Block& block) {
   const bool is_arc = block.motion == gcode::Motion::kArc;
   const bool is_nurbs = block.motion == gcode::Motion::kNurbs;
   const bool is_feed = is_arc || is_nurbs || block.motion == gcode::Motion::kLinear;
   const geometry::Arc& arc = block.arc;
   const bool is_round = arc.centre.allFinite() && arc.e1.allFinite() && arc.e2.allFinite() &&
-                        arc.radius > 0.0 && arc.sweep > 0.0 && arc.sweep < 6.2832;
+                        arc.radius > 0.0 && arc.sweep > 0.0 && arc.sweep < 6.2832 * 1e4;
   return block.start.allFinite() && block.end.allFinite() && std::isfinite(block.feedrate) &&
          is_feed == (block.feedrate > 0.0) && block.tolerance >= 0.0 && block.dwell >= 0.0 &&
          block.line > 0 && is_nurbs == (block.nurbs != nullptr) && (!is_arc || is_round);
@@ -20,7 +22,9 @@ bool is_sound(const gcode::Block& block) {
 
 /// Blocks are sound and joined, there are no more than the text can hold, and an error stays.
 void run(Bytes bytes) {
-  gcode::Reader reader = gcode::Reader::from_text(std::string(text_of(bytes)), "fuzz.nc");
+  gcode::ReaderOptions options;
+  options.most_lines = kMostLines;
+  gcode::Reader reader = gcode::Reader::from_text(std::string(text_of(bytes)), "fuzz.nc", options);
   Vec3 position = Vec3::Zero();
   std::size_t blocks = 0;
   auto block = reader.next();
@@ -28,7 +32,7 @@ void run(Bytes bytes) {
     promise(is_sound(**block), "a block of the reader is not sound");
     promise((*block)->start == position, "a block does not start where the last one ended");
     position = (*block)->end;
-    promise(++blocks <= 4 * bytes.size() + 4, "more blocks than the text can hold");
+    promise(++blocks <= 4 * (bytes.size() + kMostLines) + 4, "more blocks than the text can hold");
   }
   const auto again = reader.next();
   promise(block.has_value() == again.has_value(), "the end of the program does not stay");

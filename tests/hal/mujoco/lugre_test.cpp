@@ -11,8 +11,8 @@ namespace lugre_test {
 constexpr double kStep = 1e-4;  // [s]
 
 /// Bristles of both axes, with and without the elastic zone.
-std::vector<LugreParams> all_params() {
-  std::vector<LugreParams> list;
+std::vector<FrictionParams> all_params() {
+  std::vector<FrictionParams> list;
   for (const AxisParams& axis : TableParams{}.axis) {
     for (const double share : {0.0, 0.5, 0.9}) {
       list.push_back(axis.friction);
@@ -23,14 +23,14 @@ std::vector<LugreParams> all_params() {
 }
 
 /// Stribeck formula, written out once more [N].
-double stribeck_curve(const LugreParams& p, double v) {
+double stribeck_curve(const FrictionParams& p, double v) {
   const double fs = p.static_ratio * p.coulomb;
   const double shape = std::exp(-(v * v) / (p.stribeck_velocity * p.stribeck_velocity));
   return std::copysign(p.coulomb + (fs - p.coulomb) * shape, v) + p.viscous * v;
 }
 
 TEST(Lugre, SteadyFrictionFollowsTheStribeckCurveWithinOnePercent) {
-  for (const LugreParams& params : all_params()) {
+  for (const FrictionParams& params : all_params()) {
     for (const double speed : {0.05, 0.5, 1.0, 2.0, 4.0, 10.0, 50.0, 200.0}) {
       for (const double v : {speed, -speed}) {
         Lugre friction(params, kStep);
@@ -45,7 +45,7 @@ TEST(Lugre, SteadyFrictionFollowsTheStribeckCurveWithinOnePercent) {
 }
 
 TEST(Lugre, StaysFiniteAndBoundedWhereAnExplicitBristleDiverges) {
-  LugreParams params;
+  FrictionParams params;
   params.coulomb = 20.0;
   params.bristle_stiffness = 30e3;  // explicit Euler diverges above 13 mm/s
   params.bristle_damping = 0.0;
@@ -58,7 +58,7 @@ TEST(Lugre, StaysFiniteAndBoundedWhereAnExplicitBristleDiverges) {
 }
 
 TEST(Lugre, PreSlidingStiffnessIsThatOfTheBristle) {
-  for (LugreParams params : all_params()) {
+  for (FrictionParams params : all_params()) {
     params.bristle_damping = 0.0;
     params.viscous = 0.0;
     Lugre friction(params, kStep);
@@ -73,7 +73,7 @@ TEST(Lugre, PreSlidingStiffnessIsThatOfTheBristle) {
 }
 
 TEST(Lugre, ElasticZoneGivesBackTheWorkPutIn) {
-  LugreParams params;
+  FrictionParams params;
   params.bristle_damping = 0.0;
   params.viscous = 0.0;
   params.elastic_share = 0.9;
@@ -94,7 +94,7 @@ TEST(Lugre, ElasticZoneGivesBackTheWorkPutIn) {
 // A block of 10 kg pulled ever harder lets go at Fs: it has moved no more than the bristle's reach
 // before.
 TEST(Lugre, BreaksAwayAtStaticFriction) {
-  for (const LugreParams& params : all_params()) {
+  for (const FrictionParams& params : all_params()) {
     const double breakaway = params.coulomb * params.static_ratio;
     const double mass = 0.01;  // 10 kg in N s^2/mm
     Lugre friction(params, kStep);
@@ -109,7 +109,7 @@ TEST(Lugre, BreaksAwayAtStaticFriction) {
 }
 
 TEST(Lugre, WithoutCoulombFrictionOnlyTheViscousPartIsLeft) {
-  LugreParams params;
+  FrictionParams params;
   params.coulomb = 0.0;
   Lugre friction(params, kStep);
   EXPECT_DOUBLE_EQ(friction.step(30.0), params.viscous * 30.0);

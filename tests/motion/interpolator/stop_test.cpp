@@ -63,7 +63,7 @@ feedrate::Brake shortest(const test::Plan& plan, const PlanPlace& place, double 
     for (const feedrate::LimitZone& zone : plan.segments[i].limits) {
       if (passed + zone.end >= 0.0 && passed + zone.begin <= reach) {
         most.acceleration =
-            std::max(most.acceleration, std::min(zone.acceleration, limits.acceleration));
+            std::max(most.acceleration, std::min(zone.deceleration, limits.acceleration));
         most.jerk = std::max(most.jerk, std::min(zone.jerk, limits.jerk));
       }
     }

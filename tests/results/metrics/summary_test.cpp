@@ -171,6 +171,15 @@ TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {
   EXPECT_THAT(table, HasSubstr("note                      memory is not locked"));
 }
 
+TEST(Summary, FallbacksOfThePlannerAreSaidWhereThereAreAny) {
+  Summary s = sample_summary();
+  EXPECT_FALSE(Json::parse(to_json(s)).contains("plan_fallbacks"));
+  EXPECT_EQ(to_table(s, Limits{}).find("plan fallbacks"), std::string::npos);
+  s.plan_fallbacks = 3;
+  EXPECT_EQ(Json::parse(to_json(s))["plan_fallbacks"], 3);
+  EXPECT_NE(to_table(s, Limits{}).find("plan fallbacks"), std::string::npos);
+}
+
 TEST(Summary, CertifiedFiguresAreThereWithTheirPlannerOnly) {
   Summary s = sample_summary();
   EXPECT_FALSE(Json::parse(to_json(s)).contains("certified_deviation_um"));

@@ -41,7 +41,7 @@ TEST_F(CompareCommand, SeveralProgramsAreATableOfThePlanners) {
 
 TEST_F(CompareCommand, BadInputIsOneLine) {
   expect_refusal(twin({"compare", "none.nc", "--out", "out"}), 1, "none.nc");
-  folder.put("bad.nc", "G01 X5 F100\nG99 X1\n");
+  folder.put("bad.nc", "G01 X5 F100\nG77 X1\n");
   expect_refusal(twin({"compare", "bad.nc", "--out", "out"}), 1, "bad.nc:2");
   expect_refusal(twin({"compare", "ok.nc", "bad.nc", "--out", "out"}), 1, "bad.nc, paper: ");
   expect_refusal(twin({"compare", "ok.nc", "--set", "limits.jerkk=1", "--out", "out"}), 2, "jerkk");

@@ -61,8 +61,8 @@ TEST_P(LinuxCnc, PointsOfItsCurvesStayWithinTheTolerance) {
     GTEST_SKIP() << "LinuxCNC's module gcode is not installed";
   }
   const Outcome outcome =
-      run(fmt::format("/usr/bin/python3 {}/tests/convert/linuxcnc_points.py {} {}", TWIN_SOURCE_DIR,
-                      file.string(), (folder / "linuxcnc.var").string()));
+      run(fmt::format("/usr/bin/python3 {}/tests/studies/convert/linuxcnc_points.py {} {}",
+                      TWIN_SOURCE_DIR, file.string(), (folder / "linuxcnc.var").string()));
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   std::vector<Vec3> points;
   std::istringstream lines(outcome.text);

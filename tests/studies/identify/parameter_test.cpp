@@ -71,7 +71,7 @@ TEST(ParameterSet, WhatCannotBeFittedIsRefusedByName) {
               HasSubstr("servo.x.kp_per_s is named twice"));
   EXPECT_THAT(refusal({{"servo.x.kf", 1.0, 1.0}}), HasSubstr("no range"));
   EXPECT_THAT(refusal({{"servo.x.kf", 0.0, 1.0, Scale::kLogarithmic}}), HasSubstr("no range"));
-  EXPECT_THAT(refusal({{"servo.x.kf", 0.0, 100.0}}), HasSubstr("not inside 0 to 10"));
+  EXPECT_THAT(refusal({{"servo.x.kf", 0.0, 100.0}}), HasSubstr("not inside -10 to 10"));
 }
 
 }  // namespace parameter_test

@@ -39,7 +39,7 @@ TEST_F(ReproduceCommand, InterruptLeavesNothing) {
   }
   child.signal(SIGINT);
   const auto result = child.wait();
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 130);
   EXPECT_THAT(result.err, HasSubstr("interrupted"));
   EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
 }

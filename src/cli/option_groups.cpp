@@ -1,0 +1,218 @@
+#include "cli/option_groups.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "core/program_settings.hpp"
+#include "core/units.hpp"
+
+namespace twin::cli {
+
+void begin_group(CLI::App& command, const std::string& name) {
+  command.option_defaults()->group(name);
+}
+
+// Groups of options.
+
+CLI::Option* add_feedrate(CLI::App& command, std::optional<double>& feedrate,
+                          const std::string& text) {
+  const auto take = [&feedrate](double given) {
+    feedrate = units::mm_per_s_from_mm_per_min(given);
+  };
+  return command.add_option_function<double>("--feedrate-mm-per-min", take, text)
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("F");
+}
+
+void add_program(CLI::App& command, ProgramArguments& program) {
+  const auto take = [&program](const std::vector<std::string>& given) {
+    program.name = given.front();
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "program", take, "NC program: a file, or the name of one in nc_programs")
+      ->required()
+      ->expected(1)
+      ->type_name("PROGRAM.nc");
+  add_feedrate(command, program.feedrate);
+}
+
+CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
+                      const std::string& text) {
+  return command.add_option(name, list, text)->take_all()->expected(1)->allow_extra_args(false);
+}
+
+CLI::Option* add_machine_file(CLI::App& command, MachineArguments& machine,
+                              const std::string& text) {
+  return command.add_option("--machine", machine.file, text)
+      ->type_name("FILE.toml")
+      ->capture_default_str();
+}
+
+void add_machine(CLI::App& command, MachineArguments& machine) {
+  add_machine_file(command, machine, "Machine file: a file, or the name of one in mjcf");
+  add_list(command, "--set", machine.settings,
+           "Change a setting of the machine file, as in --set limits.jerk=20000 (repeatable)")
+      ->type_name("SECTION.KEY=VALUE");
+}
+
+/// How programs are read.
+void add_reading(CLI::App& command, MachineArguments& machine) {
+  const std::vector<std::string> dialects(kDialectNames.begin(), kDialectNames.end());
+  command
+      .add_option("--dialect", machine.dialect,
+                  "Whose language the program is written in: auto (as its text shows), linuxcnc, "
+                  "fanuc, grbl [of the machine file: auto]")
+      ->check(CLI::IsMember(dialects))
+      ->type_name("NAME");
+  command
+      .add_option("--ignore-axes", machine.ignored_axes,
+                  "Leave out the words of these axes, letters of abcuvw")
+      ->type_name("LETTERS");
+  command
+      .add_option(
+          "--subprograms", machine.subprogram_folders,
+          "Look here for files of subprograms, behind the program's own folder (repeatable)")
+      ->take_all()
+      ->expected(1)
+      ->type_name("DIR");
+  command.add_option("--offset-mm", machine.offset_mm, "Where the program's origin lies")
+      ->type_name("X,Y,Z");
+  command.add_option("--tool-table", machine.tool_table, "Lengths and diameters of tools")
+      ->type_name("FILE.tbl");
+}
+
+void add_curves(CLI::App& command, MachineArguments& machine) {
+  const std::vector<std::string> kinds{"nurbs", "bezier", "linear"};
+  command
+      .add_option("--curves", machine.curves,
+                  "What runs of short blocks become: nurbs (C2 curves), bezier (Fast Bezier), "
+                  "linear (nothing else) [of the machine file: nurbs]")
+      ->check(CLI::IsMember(kinds))
+      ->type_name("NAME");
+  const auto take = [&machine](const std::string& given) {
+    machine.curves = given;
+    machine.has_old_name_of_curves = true;
+  };
+  command.add_option_function<std::string>("--interpolator", take, "Old name of --curves")
+      ->check(CLI::IsMember(kinds))
+      ->type_name("NAME")
+      ->excludes("--curves");
+}
+
+void add_simulated_hal(CLI::App& command, std::string& hal) {
+  command
+      .add_option("--hal", hal,
+                  "Machine: mujoco is the simulated table, ideal has position = set point")
+      ->check(CLI::IsMember({"mujoco", "ideal"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+void add_faults(CLI::App& command, std::vector<std::string>& faults) {
+  add_list(command, "--fault", faults,
+           "Break something of the emulated rig, as in --fault alarm:x@1.5 (repeatable)")
+      ->type_name("KIND[:AXIS]@SECONDS");
+}
+
+void add_rig(CLI::App& command, RigArguments& rig) {
+  command
+      .add_option("--rig", rig.which,
+                  "Which rig: cards are the real ones, process is a running `twin rig emulate`, "
+                  "emulated is in this process and in simulated time, auto is cards or process")
+      ->check(CLI::IsMember({"auto", "cards", "process", "emulated"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--rig-name", rig.name, "Shared memory of the emulator's process [/twin-rig-UID]")
+      ->type_name("/NAME");
+}
+
+void add_moving_rig(CLI::App& command, RigArguments& rig) {
+  add_rig(command, rig);
+  command.add_flag("--i-know-it-moves", rig.is_known_to_move,
+                   "Let a real machine move without asking");
+  add_faults(command, rig.faults);
+  command
+      .add_option("--rig-log", rig.log,
+                  "Write what happens at the boards of --rig emulated to this file")
+      ->type_name("FILE");
+}
+
+void add_hal(CLI::App& command, HalArguments& hal) {
+  command
+      .add_option("--hal", hal.name,
+                  "Machine: mujoco is the simulated table, ideal has position = set point, rig is "
+                  "the real one or its emulation")
+      ->check(CLI::IsMember({"mujoco", "ideal", "rig"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  begin_group(command, "Rig, with --hal rig");
+  add_moving_rig(command, hal.rig);
+}
+
+void add_overrides(CLI::App& command, std::string& overrides) {
+  command
+      .add_option("--override", overrides,
+                  "Change the feed override while moving, as in 0:100,2:50,3.5:0,5:150: seconds "
+                  "since the first set point, percent of the programmed feedrate (0 holds)")
+      ->type_name("S:PERCENT,...");
+}
+
+void add_quiet(CLI::App& command, Verbosity& verbosity, const std::string& text) {
+  command.add_flag_callback(
+      "--quiet", [&verbosity] { verbosity = Verbosity::kQuiet; }, text);
+}
+
+void add_no_plots(CLI::App& command, bool& has_plots) {
+  command.add_flag_callback(
+      "--no-plots", [&has_plots] { has_plots = false; }, "Draw no figures");
+}
+
+void add_results(CLI::App& command, ResultArguments& results, const std::string& folder) {
+  command.add_option("--out", results.folder, "Folder of the results [renders/" + folder + "]")
+      ->type_name("DIR");
+  add_no_plots(command, results.has_plots);
+  add_quiet(command, results.verbosity);
+}
+
+void add_run_results(CLI::App& command, ResultArguments& results) {
+  add_results(command, results);
+  command.add_flag_callback(
+      "--no-report", [&results] { results.has_page = false; }, "Write no report.html");
+  command
+      .add_option("--columns", results.columns,
+                  "Columns of trace.csv: names, default, all, as in default,path_mm,x_torque_Nm")
+      ->type_name("NAME,...");
+  command.add_flag_callback(
+      "--no-trace", [&results] { results.has_trace = false; },
+      "Write the summary alone: no trace, and so no plots and no report");
+  command.add_flag("--json", results.has_json, "Print summary.json in place of the table");
+}
+
+void add_last_results(CLI::App& command, ResultArguments& results, const std::string& text) {
+  command.add_option("--out", results.folder, text)->type_name("DIR");
+  add_quiet(command, results.verbosity);
+}
+
+void add_video(CLI::App& command, VideoArguments& video) {
+  command.add_flag("--video", video.is_wanted, "Render video.mp4, as long as the machining");
+  command.add_option("--camera", video.camera, "Camera of the video")
+      ->check(CLI::IsMember({"iso", "top"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+void add_axis(CLI::App& command, std::string& axis) {
+  command.add_option("--axis", axis, "Axis")
+      ->required()
+      ->check(CLI::IsMember({"x", "y"}))
+      ->type_name("x|y");
+}
+
+void add_duration(CLI::App& command, std::optional<double>& duration) {
+  command.add_option("--for", duration, "End after so long")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+}
+
+}  // namespace twin::cli

@@ -1,0 +1,296 @@
+#include "gcode/interpreter/interpreter.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "core/units.hpp"
+#include "gcode/interpreter/line_check.hpp"
+#include "gcode/notes.hpp"
+#include "gcode/text/fault.hpp"
+#include "gcode/words/line_words.hpp"
+
+namespace twin::gcode {
+namespace {
+
+constexpr std::uint32_t kPrepared = LineWords::groups_of(
+    GGroup::kDwell, GGroup::kPlane, GGroup::kCutterCompensation, GGroup::kToolLength,
+    GGroup::kWorkOffset, GGroup::kSetting, GGroup::kScaling, GGroup::kMirror, GGroup::kRotation,
+    GGroup::kPathMode, GGroup::kSpindleMode, GGroup::kSmoothness, GGroup::kMotion);
+
+bool goes_home(const LineWords& words) {
+  return words.has(GGroup::kSetting, GWord::kHome) ||
+         words.has(GGroup::kSetting, GWord::kSecondHome);
+}
+
+}  // namespace
+
+Interpreter::Interpreter(const ReaderOptions& options, Notes& notes)
+    : set_up_(options),
+      position_(options.start),
+      programmed_(set_up_.coordinates().program_of(options.start)),
+      feedrate_(options.feedrate),
+      notes_(&notes) {
+  state_.feedrate = options.default_feedrate;
+  state_.feed_number = units::mm_per_min_from_mm_per_s(options.default_feedrate);
+}
+
+Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, LineBlocks& blocks) {
+  blocks.count = 0;
+  blocks.is_end = words.has(MGroup::kStop, MWord::kEnd);
+  line_ = line;
+  const MotionMode before = state_.motion;
+  const Plane plane_before = state_.plane;
+  update(state_, words, feedrate_);
+  if ((nurbs_.is_open() || state_.is_nurbs() || words.has(GGroup::kMotion)) &&
+      concerns_nurbs(words)) {
+    return execute_nurbs(words, before, blocks);
+  }
+  TWIN_CHECK(check_words(words, state_, feedrate_.has_value(), *notes_, line));
+  if ((words.g_groups() & kPrepared) != 0 || words.has_m() || words.has('T')) {
+    TWIN_CHECK(prepare(words, plane_before, blocks));
+  }
+  stops_once_ = words.has(GGroup::kOnce);
+  if (words.has_any("XYZIJKR") || (words.g_groups() & kPrepared) != 0) {
+    TWIN_CHECK(add_moves(words, blocks));
+  }
+  has_pending_stop_ = words.has(MGroup::kStop, MWord::kStop);
+  if (blocks.is_end) {
+    TWIN_CHECK(finish_at(words.column(MGroup::kStop)));
+  }
+  if (has_more()) {
+    fill(blocks);
+  }
+  return {};
+}
+
+/// What a line does before it moves.
+Expected<void> Interpreter::prepare(const LineWords& words, Plane plane_before,
+                                    LineBlocks& blocks) {
+  if (compensation_.is_on() && (state_.plane != plane_before || words.has(MGroup::kToolChange))) {
+    return fail_at(words.has(GGroup::kPlane) ? words.column(GGroup::kPlane)
+                                             : words.column(MGroup::kToolChange),
+                   "another plane or tool with the cutter compensation on: expected G40 before it");
+  }
+  TWIN_CHECK(set_up_.change_tool(words));
+  if (words.has(MGroup::kToolChange, MWord::kToolChange)) {
+    add_rest(0.0, blocks);
+  }
+  if (words.has(GGroup::kDwell)) {
+    add_rest(words.value('P'), blocks);
+  }
+  note_words_without_effect(words);
+  if (words.has(GGroup::kCutterCompensation)) {
+    TWIN_CHECK(change_compensation(words));
+  }
+  if (words.has(GGroup::kMotion) && state_.motion != MotionMode::kCycle) {
+    cycle_words_.cancel();
+  }
+  if (!SetUp::concerns(words)) {
+    return {};
+  }
+  const std::uint64_t version = coordinates().version();
+  TWIN_CHECK(set_up_.apply(words, state_, programmed_, *notes_, line_));
+  if (compensation_.is_on() && (coordinates().version() != version || goes_home(words))) {
+    return fail_at(words.first_g_column(),
+                   "a change of coordinates or a return to home with the cutter compensation on: "
+                   "expected G40 before it");
+  }
+  return {};
+}
+
+void Interpreter::note_words_without_effect(const LineWords& words) {
+  const auto note = [this](bool is_there, std::string_view text) {
+    if (is_there) {
+      notes_->add(NoteKind::kWithoutEffect, text, line_);
+    }
+  };
+  note(words.has(GGroup::kPathMode) && words.has('Q'),
+       "Q of G64 has no effect: short lines are followed within P");
+  note(words.has(GGroup::kSpindleMode), "G96 and G97 have no effect: the spindle is not modelled");
+  note(words.has(GGroup::kSmoothness), "G187 has no effect: the path tolerance is that of G64 P");
+  note((words.has(GGroup::kMotion, GWord::kCubicSpline) ||
+        words.has(GGroup::kMotion, GWord::kQuadraticSpline)) &&
+           !draws_spline(words),
+       "G05 P and G05.1 Q have no effect: look-ahead is always on");
+  if (!words.has_m()) {
+    return;
+  }
+  note(words.has(MGroup::kOverride), "M48 to M53 have no effect: overrides are the operator's");
+  note(words.has(MGroup::kInputOutput),
+       "M62 to M68 have no effect: there are no inputs and outputs");
+  note(words.has(MGroup::kClamp), "M10 and M11 have no effect: there are no clamps");
+  note(words.has(MGroup::kUserCommand), "M100 to M199 have no effect: no program is started");
+}
+
+Expected<void> Interpreter::change_compensation(const LineWords& words) {
+  const int column = words.column(GGroup::kCutterCompensation);
+  if (words.g(GGroup::kCutterCompensation) == GWord::kNoCutterCompensation) {
+    must_leave_straight_ = must_leave_straight_ || compensation_.is_on();
+    return finish_at(column);
+  }
+  if (compensation_.is_on()) {
+    return fail_at(column, "the cutter compensation is on already: expected G40 before G41 or G42");
+  }
+  if (state_.plane == Plane::kYz) {
+    return fail_at(column, "cutter compensation in the plane of G19: expected G17 or G18");
+  }
+  if (!coordinates().is_shift_only() && state_.plane != Plane::kXy) {
+    return fail_at(column, "cutter compensation in turned coordinates: expected G17");
+  }
+  TWIN_TRY(double radius, set_up_.cutter_radius(words, state_, *notes_, line_));
+  radius = coordinates().is_mirrored() ? -radius : radius;
+  compensation_.start(radius, state_.plane);
+  return {};
+}
+
+Expected<void> Interpreter::add_moves(const LineWords& words, LineBlocks& blocks) {
+  if (goes_home(words)) {
+    return add_home(words, blocks);
+  }
+  if (!asks_for_move(words, state_)) {
+    if (state_.motion == MotionMode::kCycle &&
+        (words.has_any("RLK") || words.has(GGroup::kMotion)) && !words.has(GGroup::kSetting)) {
+      return fail_at(
+          words.has(GGroup::kMotion) ? words.column(GGroup::kMotion) : words.first_column("RLK"),
+          "a canned cycle without a place: expected X, Y or Z on its line");
+    }
+    return {};
+  }
+  if (draws_spline(words)) {
+    return add_spline(words, blocks);
+  }
+  if (words.has(GGroup::kMachineCoordinates)) {
+    if (state_.is_incremental || compensation_.is_on() ||
+        (state_.motion != MotionMode::kRapid && state_.motion != MotionMode::kLinear)) {
+      return fail_at(words.column(GGroup::kMachineCoordinates),
+                     "G53 moves in machine coordinates: expected G00 or G01, G90 and G40");
+    }
+  }
+  return state_.motion == MotionMode::kCycle ? start_cycle(words) : add_move(words, blocks);
+}
+
+Expected<void> Interpreter::start_cycle(const LineWords& words) {
+  if (compensation_.is_on() || state_.feed_mode == FeedMode::kInverseTime) {
+    return fail_at(words.first_g_column(),
+                   "a canned cycle with cutter compensation or G93 in force: expected G40 and G94");
+  }
+  TWIN_TRY(const Vec3 hole, target(words));
+  TWIN_TRY(const CycleLine line, cycle_words_.read(words, state_, programmed_, hole));
+  if (line.kind == CycleKind::kTap) {
+    notes_->add(NoteKind::kWithoutEffect,
+                "G74 and G84 move as programmed; the spindle is not modelled", line_);
+  }
+  must_leave_straight_ = false;
+  cycle_ = DrillingCycle(line, programmed_);
+  return {};
+}
+
+/// Fills up with blocks of the line that are still to come.
+void Interpreter::fill(LineBlocks& blocks) {
+  while (next_waiting_ < waiting_.size() && blocks.count < blocks.block.size()) {
+    blocks.block[blocks.count++] = std::move(waiting_[next_waiting_++]);
+  }
+  while (!cycle_.is_done() && blocks.count < blocks.block.size()) {
+    const auto move = cycle_.next();
+    if (!move) {
+      break;
+    }
+    if (move->kind == CycleMove::Kind::kRest) {
+      add_rest(move->rest, blocks);
+    } else {
+      programmed_ = move->place;
+      add_straight(move->kind == CycleMove::Kind::kRapid ? Motion::kRapid : Motion::kLinear,
+                   coordinates().machine_of(programmed_), blocks);
+    }
+  }
+  const bool is_rest_done = cycle_.is_done() && next_waiting_ == waiting_.size();
+  if (has_pending_stop_ && is_rest_done && blocks.count < blocks.block.size()) {
+    has_pending_stop_ = false;
+    add_rest(0.0, blocks);
+  }
+}
+
+void Interpreter::more(LineBlocks& blocks) {
+  blocks.count = 0;
+  fill(blocks);
+}
+
+Block& Interpreter::next_block(LineBlocks& blocks, Motion motion) const {
+  Block& block = blocks.block[blocks.count];
+  block.motion = motion;
+  block.path_mode = stops_once_ ? PathMode::kExactStop : state_.path_mode;
+  block.start = block.end = position_;
+  block.feedrate = 0.0;
+  block.tolerance = state_.tolerance;
+  block.dwell = 0.0;
+  block.line = line_;
+  block.tool = set_up_.tool();
+  block.work_offset = static_cast<std::int16_t>(coordinates().selected());
+  return block;
+}
+
+/// Adds the next block, behind those that wait.
+void Interpreter::keep(LineBlocks& blocks) {
+  if (next_waiting_ < waiting_.size()) {
+    waiting_.push_back(std::move(blocks.block[blocks.count]));
+  } else {
+    ++blocks.count;
+  }
+}
+
+void Interpreter::add_rest(double duration, LineBlocks& blocks) {
+  next_block(blocks, Motion::kDwell).dwell = duration;
+  if (compensation_.is_on()) {
+    // A rest has no length: it cannot fail but by their number, which the next move tells.
+    static_cast<void>(compensate(1, blocks));
+  } else {
+    keep(blocks);
+  }
+}
+
+/// A rapid or a feed move along a line to a place on the machine; none if it has no length.
+void Interpreter::add_straight(Motion motion, const Vec3& end, LineBlocks& blocks) {
+  Block& block = next_block(blocks, motion);
+  block.end = end;
+  block.feedrate = motion == Motion::kRapid ? 0.0 : state_.feedrate;
+  if ((block.end - block.start).squaredNorm() >= kNoLength * kNoLength) {
+    keep(blocks);
+    position_ = end;
+  }
+}
+
+/// Gives the next block to the cutter compensation.
+Expected<void> Interpreter::compensate(int column, LineBlocks& blocks) {
+  Block& block = blocks.block[blocks.count];
+  if (auto added = compensation_.add(block, state_.feedrate); !added) {
+    added.error().column = column;
+    return added;
+  }
+  if (next_waiting_ == waiting_.size()) {
+    waiting_.clear();
+    next_waiting_ = 0;
+  }
+  compensation_.take_ready(waiting_);
+  return {};
+}
+
+Expected<void> Interpreter::finish_at(int column) {
+  if (nurbs_.is_open()) {
+    return tl::unexpected<Error>(nurbs_.cut_short("the program ends"));
+  }
+  if (compensation_.is_on()) {
+    auto end = compensation_.finish(position_);
+    if (!end) {
+      end.error().column = column;
+      return tl::unexpected<Error>(std::move(end.error()));
+    }
+    position_ = *end;
+    compensation_.take_ready(waiting_);
+  }
+  return {};
+}
+
+}  // namespace twin::gcode

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/program_settings.hpp"
+#include "core/vec.hpp"
+
+namespace twin::gcode {
+
+class ToolTable;
+
+/// How a program is read: what is not in its text.
+struct ReaderOptions {
+  Vec3 start{0.0, 0.0, 0.0};  ///< position before the first block [mm]
+  /// Feedrate in place of the program's F words, which may then be missing [mm/s].
+  std::optional<double> feedrate{};
+  bool block_delete = true;       ///< skip lines that begin with '/'
+  Vec3 workpiece{0.0, 0.0, 0.0};  ///< where the origin of the program's coordinates lies [mm]
+  std::shared_ptr<const ToolTable> tools{};  ///< may be null: that of the file below
+  std::string tool_table{};                  ///< file; empty: no tool has a length or a diameter
+  /// The parts of a reading, Interpreter among them, never see kAuto.
+  Dialect dialect = Dialect::kAuto;
+  std::string ignored_axes{};               ///< of "ABCUVW": words that are left out and counted
+  double default_feedrate = 0.0;            ///< for feed moves before the first F; 0: none [mm/s]
+  double largest_feedrate = 0.0;            ///< above it an F is noted; 0: none is [mm/s]
+  std::int64_t most_lines = 20'000'000;     ///< executed again by loops and calls before it ends
+  const std::atomic<bool>* stop = nullptr;  ///< ends a reading with kInterrupted; may be null
+};
+
+}  // namespace twin::gcode

@@ -1,0 +1,2 @@
+o<../secret> call
+G0 X1

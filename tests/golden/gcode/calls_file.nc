@@ -1,0 +1,3 @@
+G0 X1
+o<golden_slot> call [5]
+X2

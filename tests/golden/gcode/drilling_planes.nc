@@ -1,0 +1,13 @@
+(Canned cycles across XZ and YZ, and in inches)
+G18 G90 F60
+G0 Y4
+G99 G81 X2 Z3 Y-1 R1
+G98 G82 X4 Y-1 R1 P0.5
+G80
+G19 G0 X3
+G83 Y1 Z2 X-1 R1 Q0.75
+G80 G17 G20
+G0 Z0.5
+G81 X0.1 Y0.1 Z-0.05 R0.1 F10
+G80
+M30

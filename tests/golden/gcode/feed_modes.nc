@@ -1,0 +1,10 @@
+(Feed by inverse time and by revolution)
+G93 G1 X10 F2
+G2 X20 I5 F3
+G0 X0
+G94 G1 X5 F120
+G95 S600 M3 X10 F0.1
+S1200 X15
+G94 F60 X20
+G20 G95 F0.01 X1
+M2

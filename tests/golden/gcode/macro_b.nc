@@ -1,0 +1,20 @@
+%
+O0100 (custom macro B)
+G21 G90 G0 F600
+#1=0
+WHILE [#1 LT 2] DO 1
+G1 X[#1*10] Y#1
+#1=#1+1
+END 1
+N30 IF [#1 GE 4] GOTO 40
+X-#1
+#1=#1+1
+GOTO 30
+N40 G4 P500
+M98 P200 L2
+M30
+O0200
+G91 X1
+G90
+M99
+%

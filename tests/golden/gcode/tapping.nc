@@ -1,0 +1,7 @@
+(Tapping as its motion)
+G0 Z5
+M29 S300
+G98 G84 X1 Y1 Z-3 R1 P0.5 F150
+G99 G74 X2 Z-3 R1
+G80
+M2
