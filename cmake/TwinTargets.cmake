@@ -64,13 +64,13 @@ endfunction()
 
 # twin_library(gcode SOURCES a.cpp b.cpp DEPS twin_core ... [PRIVATE_DEPS ...] [PLAIN] [UNITY_BATCH n])
 # makes target twin_gcode from the sources of this folder. A PLAIN one, which computes next to nothing itself, is
-# compiled with less optimisation.
+# compiled without optimisation.
 function(twin_library name)
   cmake_parse_arguments(ARG "PLAIN" "UNITY_BATCH" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
   add_library(twin_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(twin_${name} PUBLIC twin_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
   if(ARG_PLAIN)
-    twin_optimise(twin_${name} -O1)
+    twin_optimise(twin_${name} -O0)
   endif()
   if(NOT ARG_UNITY_BATCH)
     set(ARG_UNITY_BATCH 0)
