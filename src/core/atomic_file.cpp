@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -214,6 +215,26 @@ Expected<void> write_whole_file(const std::filesystem::path& file, std::string_v
       .and_then([&](AtomicFile&& atomic) {
         return atomic.write(content).and_then([&] { return atomic.commit(); });
       });
+}
+
+Expected<std::string> read_whole_file(const std::filesystem::path& file) {
+  const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (opened.get() < 0) {
+    return file_error(file, "read", errno);
+  }
+  std::string content;
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t count = ::read(opened.get(), piece.data(), piece.size());
+    if (count == 0) {
+      return content;
+    }
+    if (count > 0) {
+      content.append(piece.data(), static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      return file_error(file, "read", errno);
+    }
+  }
 }
 
 void sync_folder(const std::filesystem::path& folder) noexcept {

@@ -93,6 +93,9 @@ std::filesystem::path temporary_of(std::filesystem::path file);
 Expected<void> write_whole_file(const std::filesystem::path& file, std::string_view content,
                                 Durability durability = Durability::kSynced);
 
+/// The bytes of a whole file.
+Expected<std::string> read_whole_file(const std::filesystem::path& file);
+
 /// Waits until the names in a folder are on the disk; where that cannot be had, does nothing.
 void sync_folder(const std::filesystem::path& folder) noexcept;
 

@@ -29,4 +29,14 @@ inline std::string to_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// JSON on one line as the content of an HTML element: every "<" is written as an escape, so that
+/// nothing in it ends the element.
+inline std::string inside_html(const Json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return text;
+}
+
 }  // namespace twin

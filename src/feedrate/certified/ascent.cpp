@@ -15,13 +15,6 @@ namespace {
 constexpr double kBelow = 1.0 - 1e-13;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Time at which a rising phase has a feedrate; 0 where it is faster from its start.
-double time_of(const Phase& phase, double v) noexcept {
-  const double gain = v - phase.v;
-  const double root = std::sqrt(std::max(phase.a * phase.a + 2.0 * phase.j * gain, 0.0));
-  return gain > 0.0 ? 2.0 * gain / (phase.a + root) : 0.0;
-}
-
 }  // namespace
 
 void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor,
@@ -90,7 +83,7 @@ bool Ascent::keeps(const Phase& phase, double time, const Step& step) const noex
   if (at.v <= step.limit) {
     return crossing(at, step.limit) >= step.end - kTouchRounding;
   }
-  return motion_at(phase, time_of(phase, step.limit)).s >= step.end - kTouchRounding;
+  return motion_at(phase, rising_time(phase, step.limit)).s >= step.end - kTouchRounding;
 }
 
 /// Time of a phase after which p is a limit; negative where p is beyond it at its start.
@@ -114,7 +107,7 @@ double Ascent::touching(const Phase& phase, double time, const Step& step) const
     }
   }
   low = std::max(low, 0.0);
-  const double high = std::min(time, time_of(phase, step.limit));
+  const double high = std::min(time, rising_time(phase, step.limit));
   if (!(high > low)) {
     return low;
   }

@@ -15,13 +15,6 @@ constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 /// Halvings of the time of a phase: as many as it has digits, so that more would change nothing.
 constexpr int kTimeHalvings = 53;
 
-/// Time at which a phase that rises has a feedrate; 0 where it is faster from its start.
-double rising_time(const Phase& phase, double v) noexcept {
-  const double gain = v - phase.v;
-  const double root = std::sqrt(std::max(phase.a * phase.a + 2.0 * phase.j * gain, 0.0));
-  return gain > 0.0 ? 2.0 * gain / (phase.a + root) : 0.0;
-}
-
 }  // namespace
 
 void ZoneAscent::start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "feedrate/profile/ramps.hpp"
 
@@ -38,6 +40,14 @@ inline PathMotion motion_at(const Phase& phase, double t) noexcept {
 /// Time since the begin of a phase, in [0, duration], at which it reaches the distance s [s]. The
 /// feedrate must not be negative in the phase.
 double time_at(const Phase& phase, double s) noexcept;
+
+/// Time since the begin of a rising phase at which it has the feedrate v [s]; 0 where it is faster
+/// from its start.
+inline double rising_time(const Phase& phase, double v) noexcept {
+  const double gain = v - phase.v;
+  const double root = std::sqrt(std::max(phase.a * phase.a + 2.0 * phase.j * gain, 0.0));
+  return gain > 0.0 ? 2.0 * gain / (phase.a + root) : 0.0;
+}
 
 /// What is left of a phase after the time t [s].
 Phase remainder_after(const Phase& phase, double t) noexcept;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/json.hpp"
+#include "core/text_table.hpp"
 #include "pictures/page/packed.hpp"
 #include "pictures/page/web_files.hpp"
 
@@ -37,38 +38,6 @@ void add_outline(Json& json, Packer& packer, const std::vector<Vec2>& outline) {
   json["outline"] = {json_of(packer.add("outline_x_mm", x, kOutlineStep)),
                      json_of(packer.add("outline_y_mm", y, kOutlineStep))};
   json["lifts"] = std::move(lifts);
-}
-
-/// JSON inside HTML: nothing in it ends the element.
-std::string inside_html(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3)) {
-    text.insert(at + 1, "\\");
-  }
-  for (std::size_t at = text.find("<!"); at != std::string::npos; at = text.find("<!", at)) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 /// The numbers of a run as text, with what the page must know to read them.
@@ -114,7 +83,7 @@ Expected<std::string> page_text(std::span<const PageRun> runs, const std::string
     list.push_back(std::move(json));
   }
   std::string page(web_file("page.html"));
-  replace(page, "<!--title-->", escaped(title));
+  replace(page, "<!--title-->", escape_html(title));
   replace(page, "/*style*/",
           std::string(web_file("uplot.css")) + std::string(web_file("style.css")));
   std::string code = "/*\n" + std::string(web_file("uplot.LICENSE")) + "*/\n";

@@ -1,8 +1,5 @@
 #include "studies/batch/job.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include "config/find_file.hpp"
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
@@ -61,11 +58,7 @@ Expected<std::string> JobMaker::model_checksum(const std::filesystem::path& mode
   if (known != models_.end()) {
     return known->second;
   }
-  std::ifstream file(model, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    return file_error(model, "read", errno);
-  }
+  TWIN_TRY(const std::string content, read_whole_file(model));
   return models_.emplace(model.string(), sha256(content)).first->second;
 }
 

@@ -9,8 +9,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <vector>
 
@@ -27,12 +25,6 @@ constexpr const char* kMark = "twin-store.json";
 constexpr int kLayout = 1;
 constexpr std::size_t kPrefix = 2;  // digits of the key that name the folder above a result's
 constexpr const char* kWork = "work";
-
-std::optional<std::string> content_of(const fs::path& file) {
-  std::ifstream input(file, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(input), {}};
-  return input ? std::optional(std::move(content)) : std::nullopt;
-}
 
 Expected<void> make_folder(const fs::path& folder) {
   std::error_code code;
@@ -71,7 +63,7 @@ bool is_whole(const fs::path& folder, const Json& job) {
     return false;
   }
   return std::ranges::all_of(job["files"].items(), [&](const auto& entry) {
-    const auto content = content_of(folder / entry.key());
+    const auto content = read_whole_file(folder / entry.key());
     return content && entry.value() == sha256(*content);
   });
 }
@@ -82,7 +74,7 @@ Expected<Store> Store::open(fs::path folder) {
   TWIN_CHECK(make_folder(folder));
   const fs::path mark = folder / kMark;
   std::error_code code;
-  if (const auto text = content_of(mark)) {
+  if (const auto text = read_whole_file(mark)) {
     const Json json = Json::parse(*text, nullptr, false);
     if (!json.is_object() || json.value("layout", 0) != kLayout) {
       return tl::unexpected(
@@ -119,19 +111,19 @@ fs::path Store::folder_of(const PreparedJob& job) const {
 
 std::optional<StoredResult> Store::find(const PreparedJob& job) const {
   const fs::path folder = folder_of(job);
-  const auto text = content_of(folder / "job.json");
+  const auto text = read_whole_file(folder / "job.json");
   if (!text) {
     return std::nullopt;
   }
   const Json described = Json::parse(*text, nullptr, false);
-  const auto summary = content_of(folder / "summary.json");
-  const auto failure = content_of(folder / "failure.json");
+  const auto summary = read_whole_file(folder / "summary.json");
+  const auto failure = read_whole_file(folder / "failure.json");
   if (!is_whole(folder, described) || summary.has_value() == failure.has_value()) {
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     return std::nullopt;
   }
-  StoredResult result{summary.value_or(""), {}};
+  StoredResult result{summary.value_or(std::string()), {}};
   if (failure) {
     const Json json = Json::parse(*failure, nullptr, false);
     result.failure = json.is_object() ? json.value("error", "unknown") : "unknown";
@@ -164,11 +156,8 @@ Expected<void> Store::commit(const PreparedJob& job, const fs::path& work,
   }
   std::ranges::sort(files);
   for (const fs::path& file : files) {
-    const auto content = content_of(file);
-    if (!content) {
-      return file_error(file, "read", errno);
-    }
-    described["files"][file.filename().string()] = sha256(*content);
+    TWIN_TRY(const std::string content, read_whole_file(file));
+    described["files"][file.filename().string()] = sha256(content);
   }
   TWIN_CHECK(write_whole_file(work / "job.json", to_text(described)));
   const fs::path target = folder_of(job);

@@ -7,8 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
@@ -249,11 +247,7 @@ Expected<Sweep> parse_sweep(std::string_view text, const std::filesystem::path& 
 }
 
 Expected<Sweep> read_sweep(const std::filesystem::path& file) {
-  std::ifstream input(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(input), {}};
-  if (!input) {
-    return file_error(file, "read", errno);
-  }
+  TWIN_TRY(const std::string text, read_whole_file(file));
   return parse_sweep(text, file);
 }
 

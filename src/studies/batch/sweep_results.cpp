@@ -17,7 +17,7 @@ constexpr std::string_view kDataMark = "$<DATA>";
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(rounded(x)) : Json(nullptr); }
 
-/// The page with the results in it. "<" is written as an escape, so that no name ends the script.
+/// The page with the results in it.
 std::string page_of(const std::vector<std::string>& keys, std::size_t runs,
                     const std::vector<Candidate>& candidates, const std::vector<std::size_t>& front,
                     const std::string& title) {
@@ -38,13 +38,8 @@ std::string page_of(const std::vector<std::string>& keys, std::size_t runs,
                             {"error", number_or_null(candidate.merit.contour_error)},
                             {"failure", candidate.failure}});
   }
-  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string escaped;
-  for (const char c : text) {
-    escaped += c == '<' ? "\\u003c" : std::string(1, c);
-  }
   std::string page(kSweepPage);
-  page.replace(page.find(kDataMark), kDataMark.size(), escaped);
+  page.replace(page.find(kDataMark), kDataMark.size(), inside_html(data));
   return page;
 }
 

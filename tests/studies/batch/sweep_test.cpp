@@ -7,6 +7,7 @@
 #include "studies/batch/results_table.hpp"
 #include "studies/batch/samples.hpp"
 #include "studies/batch/sweep_file.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::batch {
 namespace sweep_test {
@@ -97,6 +98,13 @@ TEST(Sweep, WhatIsWrongIsSaidWithLineAndColumn) {
     ASSERT_FALSE(sweep) << text;
     EXPECT_THAT(to_string(sweep.error()), HasSubstr(expected)) << text;
   }
+}
+
+TEST(Sweep, AFolderInPlaceOfAFileIsRefused) {
+  const test::TempFolder folder;
+  const auto sweep = read_sweep(folder.path());
+  ASSERT_FALSE(sweep);
+  EXPECT_THAT(sweep.error().message, HasSubstr("cannot read"));
 }
 
 TEST(Sweep, TooManyJobsAreRefusedBeforeTheyAreMade) {
