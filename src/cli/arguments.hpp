@@ -11,6 +11,7 @@
 
 #include "cli/terminal.hpp"
 #include "core/error.hpp"
+#include "results/trace/trace_files.hpp"
 
 /// What a command line says, as plain values: a struct for each command, in base units.
 namespace twin::cli {
@@ -53,12 +54,12 @@ struct HalArguments {
 
 /// Where results go, and what is said of them.
 struct ResultArguments {
-  std::filesystem::path folder;  ///< --out; empty: one below renders
-  bool has_plots = true;         ///< without --no-plots
-  bool has_page = true;          ///< without --no-report
-  bool has_trace = true;         ///< without --no-trace
-  bool has_json = false;         ///< --json: the summary goes to stdout as it is in the file
-  std::string columns;           ///< --columns, of the trace; empty: the default ones
+  std::filesystem::path folder;                           ///< --out; empty: one below renders
+  bool has_plots = true;                                  ///< without --no-plots
+  bool has_page = true;                                   ///< without --no-report
+  results::TraceFiles trace = results::TraceFiles::kCsv;  ///< --trace, --no-trace
+  bool has_json = false;  ///< --json: the summary goes to stdout as it is in the file
+  std::string columns;    ///< --columns, of the trace; empty: the default ones
   Verbosity verbosity = Verbosity::kNormal;
 };
 

@@ -135,6 +135,7 @@ void add_options(CLI::App& command, CompareArguments& compare) {
   add_reading(command, compare.machine);
   add_simulated_hal(command, compare.hal);
   add_results(command, compare.results, "PROGRAM_compare");
+  add_trace(command, compare.results);
 }
 
 void add_options(CLI::App& command, ReproduceArguments& reproduce) {
@@ -145,6 +146,7 @@ void add_options(CLI::App& command, ReproduceArguments& reproduce) {
       ->type_name("N")
       ->capture_default_str();
   add_results(command, reproduce.results, "reproduce");
+  add_trace(command, reproduce.results);
 }
 
 void add_options(CLI::App& command, CircleArguments& circle) {
@@ -156,13 +158,15 @@ void add_options(CLI::App& command, CircleArguments& circle) {
   add_curves(command, circle.machine);
   add_hal(command, circle.hal);
   add_results(command, circle.results, "circle");
+  add_trace(command, circle.results);
 }
 
 void add_options(CLI::App& command, IdentifyArguments& identify) {
   command
       .add_option("traces", identify.traces,
-                  "Traces: trace.csv of a run, or any CSV of time, command and measured position")
-      ->type_name("TRACE.csv ...");
+                  "Traces: trace.csv or trace.h5 of a run, or any CSV or HDF5 of time, command and "
+                  "measured position")
+      ->type_name("TRACE ...");
   command.add_flag("--tables", identify.has_tables,
                    "Fit Tables 4 and 5 of Wang and Yau's paper in place of traces");
   add_machine(command, identify.machine);
@@ -174,7 +178,7 @@ void add_options(CLI::App& command, IdentifyArguments& identify) {
       ->type_name("SIGNAL=COLUMN[:UNIT],...");
   add_list(command, "--validate", identify.validating,
            "Traces that are predicted and not fitted; without, the end of each trace is held out")
-      ->type_name("TRACE.csv");
+      ->type_name("TRACE");
   add_no_plots(command, identify.has_plots);
   command
       .add_option("--out", identify.file,
@@ -298,6 +302,7 @@ void add_options(CLI::App& command, RigJogArguments& jog) {
   add_machine(command, jog.machine);
   add_moving_rig(command, jog.rig);
   add_last_results(command, jog.results, "Folder of the trace [renders/rig_jog]");
+  add_trace(command, jog.results, true);
 }
 
 void add_options(CLI::App& command, RigHomeArguments& home) {

@@ -306,6 +306,7 @@ Expected<RunResult> Run::execute() {
   result.met_at = motion_.met_at;
   result.rest_at = motion_.rest_at;
   result.summary = summarise(wall_time, result.failure);
+  recorder_.describe(result.summary);
   if (!result.failure) {
     if (auto saved = recorder_.commit(); !saved) {
       result.failure = std::move(saved).error();

@@ -43,6 +43,7 @@ __all__ = [
     "convert",
     "identify",
     "plan",
+    "read_trace",
     "run",
 ]
 
@@ -97,6 +98,7 @@ def run(
     keep_trace=True,
     wall_clock=False,
     folder=None,
+    trace="csv",
 ):
     """Plans a program, moves the machine along it and records every period.
 
@@ -113,7 +115,8 @@ def run(
         panel: a Panel, by which other threads override, hold and stop the motion
         keep_trace: whether the result gets the trace in memory
         wall_clock: whether a period takes a period of the wall clock
-        folder: where trace.csv and summary.json are written while it runs; None: no files
+        folder: where trace and summary.json are written while it runs; None: no files
+        trace: files of the trace in that folder: "csv", "hdf5", "both" or "none"
 
     Returns:
         Result; its failure says why a run ended early
@@ -122,9 +125,10 @@ def run(
         Error: the run could not begin; nothing has moved
         KeyboardInterrupt: after the machine has braked to rest on the path
     """
+    text, settings = _program(program, feedrate_mm_per_min), _settings(machine)
     outcome = _twin.run(
-        _program(program, feedrate_mm_per_min),
-        _settings(machine),
+        text,
+        settings,
         hal=hal,
         faults=list(faults),
         overrides=[(float(time), float(percent)) for time, percent in overrides],
@@ -133,8 +137,17 @@ def run(
         wall_clock=wall_clock,
         panel=panel,
         servo=servo,
+        trace_files=trace,
     )
-    return Result(outcome)
+    return Result(outcome, text, settings)
+
+
+def read_trace(file):
+    """Reads a trace from a file, CSV or HDF5 by its content. Returns a Trace.
+
+    The file may be any table of numbers with named columns. Units are known of traces of run() alone.
+    """
+    return Trace(_twin.read_trace(os.fspath(file)))
 
 
 def identify(
@@ -143,7 +156,7 @@ def identify(
     """Fits a machine's parameters to traces recorded on it.
 
     Args:
-        traces: a CSV file, or several; each with even time, set points and measured positions
+        traces: a CSV or HDF5 file, or several; each with even time, set points and measured positions
         machine: settings that the search begins at, and that what is not identified keeps
         columns: which columns are which signal, "SIGNAL=COLUMN[:UNIT],..."; "": as trace.csv
         fixed: keys that keep their value

@@ -12,6 +12,7 @@ _Path = Union[str, "os.PathLike[str]"]
 _Value = Union[float, str, bool, Sequence[float]]
 _Vector2 = tuple[float, float]
 _Vector3 = tuple[float, float, float]
+_TraceFiles = Literal["csv", "hdf5", "both", "none"]
 _Hal = Literal["mujoco", "ideal", "emulated_rig"]
 _Servo = Callable[["SetPoint", _Vector2], Sequence[float]]
 
@@ -120,7 +121,7 @@ class Result:
     failure: Optional[Error]
     @property
     def trace(self) -> Trace: ...
-    def save(self, folder: _Path) -> None: ...
+    def save(self, folder: _Path, trace: _TraceFiles = "csv") -> None: ...
 
 class Identification:
     machine: Machine
@@ -228,7 +229,9 @@ def run(
     keep_trace: bool = True,
     wall_clock: bool = False,
     folder: Optional[_Path] = None,
+    trace: _TraceFiles = "csv",
 ) -> Result: ...
+def read_trace(file: _Path) -> Trace: ...
 def compare(
     programs: Union[_Path, Program, Iterable[Union[_Path, Program]]],
     machines: Mapping[str, Machine],

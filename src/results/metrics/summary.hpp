@@ -165,6 +165,12 @@ struct Summary {
 /// a run does not have is left out. Settings keep all the digits of the machine file.
 std::string to_json(const Summary& summary);
 
+/// The same without what differs from one computation of the same run to the next: computing times
+/// and the command line.
+std::string to_reproducible_json(const Summary& summary);
+/// The text of a summary.json without them.
+std::string reproducible(const std::string& summary_json);
+
 /// The table for the terminal: quantities with units, peaks beside their limits.
 std::string to_table(const Summary& summary, const Limits& limits);
 

@@ -134,4 +134,14 @@ std::string to_json(const Summary& summary) {
   return to_text(json);
 }
 
+std::string reproducible(const std::string& summary_json) {
+  Json json = Json::parse(summary_json);
+  for (const char* key : {"cycle_time_us", "real_time_factor", "command"}) {
+    json.erase(key);
+  }
+  return to_text(json);
+}
+
+std::string to_reproducible_json(const Summary& summary) { return reproducible(to_json(summary)); }
+
 }  // namespace twin::results

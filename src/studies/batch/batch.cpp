@@ -8,7 +8,6 @@
 #include <system_error>
 #include <thread>
 
-#include "core/json.hpp"
 #include "results/metrics/summary.hpp"
 #include "runtime/run.hpp"
 #include "session/machine.hpp"
@@ -20,15 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The summary without what differs from one computation of the same job to the next.
-std::string reproducible(const results::Summary& summary) {
-  Json json = Json::parse(results::to_json(summary));
-  for (const char* key : {"cycle_time_us", "real_time_factor", "command"}) {
-    json.erase(key);
-  }
-  return to_text(json);
 }
 
 /// The jobs of a batch and how far they are, shared by the workers.
@@ -159,7 +149,7 @@ Expected<StoredResult> run_job(const PreparedJob& job, const std::filesystem::pa
                              : result->failure ? &*result->failure
                                                : nullptr;
   if (error == nullptr) {
-    return StoredResult{reproducible(result->summary), {}};
+    return StoredResult{results::to_reproducible_json(result->summary), {}};
   }
   if (error->code == ErrorCode::kInterrupted) {
     return tl::unexpected(*error);

@@ -27,6 +27,7 @@ Expected<results::Summary> run_job(const Job& job, const Options& options) {
   request.directory = job.directory;
   request.durability = Durability::kCached;  // studies read the trace at once and write their own
   request.stop = options.stop;
+  request.trace = options.trace;
   auto result = runtime::run_program(request);
   if (!job.keeps_results) {
     std::error_code ignored;
