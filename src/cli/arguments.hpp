@@ -186,6 +186,22 @@ struct SweepArguments {
   BatchRunArguments run;
 };
 
+struct TuneArguments {
+  std::vector<std::string> programs;
+  std::optional<double> feedrate;  ///< [mm/s]
+  MachineArguments machine;
+  std::string aim = "error";            ///< --for: "error", "time"
+  std::optional<double> largest_error;  ///< --within-um [um]
+  double gain_margin = 6.0;             ///< --gain-margin-dB [dB]
+  double phase_margin = 30.0;           ///< --phase-margin-deg [deg]
+  std::vector<std::string> ranges;      ///< --vary KEY=FROM:TO[:log]; empty: the usual ones
+  std::vector<std::string> further;     ///< --also, programs that are judged and not tuned on
+  std::size_t trials = 2000;            ///< --trials
+  std::uint32_t seed = 1;               ///< --seed
+  std::filesystem::path folder;         ///< --out; empty: one below renders
+  BatchRunArguments run;
+};
+
 struct RigProbeArguments {
   MachineArguments machine;
   RigArguments rig;
@@ -234,8 +250,8 @@ using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
                  ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
                  CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
-                 SweepArguments, RigProbeArguments, RigMonitorArguments, RigCheckArguments,
-                 RigJogArguments, RigHomeArguments, RigEmulateArguments>;
+                 SweepArguments, TuneArguments, RigProbeArguments, RigMonitorArguments,
+                 RigCheckArguments, RigJogArguments, RigHomeArguments, RigEmulateArguments>;
 
 /// Reads a command line.
 ///

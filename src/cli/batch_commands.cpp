@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -39,14 +43,18 @@ std::string time_text(double seconds) {
                     : fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
+using TakeResult = std::function<void(const batch::PreparedJob&, const batch::StoredResult&)>;
+
 Expected<batch::Report> run(const std::vector<batch::PreparedJob>& jobs, const batch::Store& store,
-                            const BatchRunArguments& arguments, const Environment& environment) {
+                            const BatchRunArguments& arguments, const Environment& environment,
+                            TakeResult take_result = {}) {
   Progress progress("running", arguments.verbosity);
   batch::Options options;
   options.workers = arguments.workers;
   options.shard = arguments.shard;
   options.shards = arguments.shards;
   options.stop = &environment.stop;
+  options.result = std::move(take_result);
   options.progress = [&](const batch::Progress& at) {
     progress.rename(
         fmt::format("{} of {} runs, {} left", at.done, at.jobs, time_text(at.time_left)));
@@ -93,15 +101,16 @@ Expected<void> execute(const SweepArguments& arguments, const Environment& envir
   BatchRunArguments conduct = arguments.run;
   conduct.store = conduct.store.empty() ? out / "store" : conduct.store;
   TWIN_TRY(const auto store, batch::Store::open(conduct.store));
-  TWIN_TRY(const auto report, run(prepared, store, conduct, environment));
+  std::map<std::string, batch::StoredResult, std::less<>> results;
+  TWIN_TRY(const auto report,
+           run(prepared, store, conduct, environment,
+               [&results](const batch::PreparedJob& job, const batch::StoredResult& result) {
+                 results.emplace(job.key, batch::figures_of(result));
+               }));
   print(report, store, conduct.verbosity);
   std::vector<batch::Row> rows;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto result = store.find(prepared[i]);
-    if (!result) {
-      return fail(ErrorCode::kFile, "the store has lost a result while it was read; run it again");
-    }
-    rows.push_back({points[i], prepared[i], *result});
+    rows.push_back({points[i], prepared[i], results.at(prepared[i].key)});
   }
   TWIN_CHECK(
       batch::write_sweep(batch::keys_of(sweep), rows, arguments.sweep.filename().string(), out));

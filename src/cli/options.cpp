@@ -276,6 +276,65 @@ void add_options(CLI::App& command, SweepArguments& sweep) {
   add_batch_run(command, sweep.run);
 }
 
+void add_options(CLI::App& command, TuneArguments& tune) {
+  command.footer(
+      "Examples:\n"
+      "  twin tune dolphin.nc oxalis.nc --also square.nc\n"
+      "  twin tune part.nc --for time --within-um 50\n"
+      "  twin tune part.nc --vary servo.x.kp_per_s=100:500:log --trials 200");
+  command.add_option("programs", tune.programs, "NC programs: files, or names in nc_programs")
+      ->required()
+      ->type_name("PROGRAM.nc ...");
+  add_feedrate(command, tune.feedrate);
+  add_machine(command, tune.machine);
+  begin_group(command, "Aim");
+  command
+      .add_option("--for", tune.aim,
+                  "error: least contour error of any program; time: least machining time of all "
+                  "within --within-um")
+      ->check(CLI::IsMember({"error", "time"}))
+      ->type_name("AIM")
+      ->capture_default_str();
+  command
+      .add_option("--within-um", tune.largest_error,
+                  "Contour error to keep with --for time [that of the machine file's settings]")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("E");
+  command
+      .add_option("--gain-margin-dB", tune.gain_margin, "Least gain margin of both position loops")
+      ->check(CLI::Range(0.0, 60.0))
+      ->type_name("M")
+      ->capture_default_str();
+  command.add_option("--phase-margin-deg", tune.phase_margin, "Least phase margin of both")
+      ->check(CLI::Range(0.0, 90.0))
+      ->type_name("P")
+      ->capture_default_str();
+  begin_group(command, "Search");
+  add_list(command, "--vary", tune.ranges,
+           "Setting to tune, and its range, as in servo.x.kp_per_s=100:500:log (repeatable) [gains "
+           "and feedforwards of both axes; with --for time jerk and tolerances as well]")
+      ->type_name("KEY=FROM:TO[:log]");
+  add_list(command, "--also", tune.further,
+           "Program that is shown before and after, and not tuned on (repeatable)")
+      ->type_name("PROGRAM.nc");
+  command.add_option("--trials", tune.trials, "Combinations of settings at most")
+      ->check(CLI::Range(1, 10000000))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", tune.seed, "Of the search; same seed, same result")
+      ->capture_default_str();
+  begin_group(command, "Results");
+  command
+      .add_option("--store", tune.run.store,
+                  "Folder of the results of runs; what it holds is not computed again [OUT/store]")
+      ->type_name("DIR");
+  command
+      .add_option("--out", tune.folder,
+                  "Folder of machine file, table and page [renders/PROGRAM_tune]")
+      ->type_name("DIR");
+  add_batch_run(command, tune.run);
+}
+
 void add_options(CLI::App& command, RigProbeArguments& probe) {
   add_machine(command, probe.machine);
   add_rig(command, probe.rig);

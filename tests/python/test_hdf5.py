@@ -125,3 +125,27 @@ def test_killed_run_leaves_what_was_flushed(tmp_path):
         assert rows >= 4096 and rows % 4096 == 0
         assert np.allclose(np.diff(left["t_s"][:rows]), 0.001)
     assert twin.read_trace(file).rows == rows
+
+
+def test_table_of_a_sweep_is_read_by_h5py_and_octave(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    (tmp_path / "short.nc").write_text(SHORT)
+    (tmp_path / "s.toml").write_text(
+        f'program = "{tmp_path}/short.nc"\nhal = "ideal"\ntrace = "hdf5"\n[grid]\n'
+        '"limits.jerk_mm_per_s3" = [20000, 40000]\n"planning.planner" = ["paper", "certified"]\n'
+    )
+    swept = command("sweep", tmp_path / "s.toml", "--out", tmp_path / "out")
+    assert swept.returncode == 0, swept.stderr
+    with h5py.File(tmp_path / "out" / "results.h5") as file:
+        assert list(file["limits.jerk_mm_per_s3"][:]) == [20000, 20000, 40000, 40000]
+        assert file["limits.jerk_mm_per_s3"].attrs["units"] == b"mm/s^3"
+        assert list(file["planning.planner"][:]) == [b"paper", b"certified"] * 2
+        assert file["machining_time_s"][0] > file["machining_time_s"][2] > 0
+        assert file["failure"][0] == b"" and len(file["key"][0]) == 64
+    assert len(list((tmp_path / "out" / "store").glob("*/*/trace.h5"))) == 4
+    if shutil.which("octave-cli"):
+        octave = subprocess.run(
+            ["octave-cli", "--no-history", "--eval",
+             f"t = load('{tmp_path}/out/results.h5'); disp(numel(t.machining_time_s))"],
+            capture_output=True, text=True)
+        assert octave.stdout.strip() == "4", octave.stderr

@@ -264,3 +264,32 @@ def identify(
     evaluations: int = 0,
     seed: int = 1,
 ) -> Identification: ...
+def report(
+    folders: Union[_Path, Iterable[_Path]],
+    file: Optional[_Path] = None,
+    *,
+    programs: Union[_Path, Program, Iterable[Union[_Path, Program]]] = (),
+) -> str: ...
+
+class Tuning:
+    machine: Machine
+    settings: dict[str, float]
+    report: dict[str, Any]
+    table: str
+
+def tune(
+    programs: Union[_Path, Iterable[_Path]],
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    folder: _Path,
+    within_um: Optional[float] = None,
+    vary: Optional[Mapping[str, tuple[float, float]]] = None,
+    gain_margin_dB: float = 6.0,
+    phase_margin_deg: float = 30.0,
+    also: Iterable[_Path] = (),
+    trials: int = 2000,
+    seed: int = 1,
+    workers: Optional[int] = None,
+    store: Optional[_Path] = None,
+    feedrate_mm_per_min: Optional[float] = None,
+) -> Tuning: ...

@@ -36,6 +36,7 @@ class FileWriter final : public Hdf5Writer {
   }
 
   Expected<void> add(const TraceColumn& column);
+  Expected<void> add_texts(const TraceColumn& column, const std::vector<std::string>& texts);
   Expected<void> flush_file();
   Expected<void> rows(std::span<const double> values) override;
   Expected<void> set_text(const char* name, std::string_view text) override;
@@ -47,6 +48,7 @@ class FileWriter final : public Hdf5Writer {
     failure_ = error.value();
     return error;
   }
+  Expected<void> describe(hid_t dataset, const TraceColumn& column);
   Expected<void> set_text_of(hid_t object, const char* name, std::string_view text);
   Expected<void> write_chunk();
 
@@ -87,12 +89,44 @@ Expected<void> FileWriter::add(const TraceColumn& column) {
   if (!dataset.is_open()) {
     return failed("write");
   }
-  TWIN_CHECK(set_text_of(dataset.id(), "units", column.unit.empty() ? "1" : column.unit));
-  TWIN_CHECK(set_text_of(dataset.id(), "long_name",
-                         column.long_name.empty() ? column.name : column.long_name));
+  TWIN_CHECK(describe(dataset.id(), column));
   columns_.push_back({is_whole, std::move(dataset), {}});
   columns_.back().waiting.reserve(kHdf5ChunkRows);
   return {};
+}
+
+Expected<void> FileWriter::describe(hid_t dataset, const TraceColumn& column) {
+  TWIN_CHECK(set_text_of(dataset, "units", column.unit.empty() ? "1" : column.unit));
+  return set_text_of(dataset, "long_name",
+                     column.long_name.empty() ? column.name : column.long_name);
+}
+
+/// A dataset of texts, each as long as the longest. They have no mark as UTF-8, which Octave does not
+/// read.
+Expected<void> FileWriter::add_texts(const TraceColumn& column,
+                                     const std::vector<std::string>& texts) {
+  std::size_t longest = 1;
+  for (const std::string& text : texts) {
+    longest = std::max(longest, text.size() + 1);
+  }
+  std::string all(longest * texts.size(), '\0');
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    texts[i].copy(all.data() + i * longest, longest - 1);
+  }
+  const Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
+  H5Tset_size(type.id(), longest);
+  const Handle storage(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+  H5Pset_obj_track_times(storage.id(), false);
+  const hsize_t count = texts.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), &H5Sclose);
+  const Handle dataset(H5Dcreate2(file_.id(), column.name.c_str(), type.id(), space.id(),
+                                  H5P_DEFAULT, storage.id(), H5P_DEFAULT),
+                       &H5Dclose);
+  if (!dataset.is_open() || (count > 0 && H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL,
+                                                   H5P_DEFAULT, all.data()) < 0)) {
+    return failed("write");
+  }
+  return describe(dataset.id(), column);
 }
 
 /// A text of fixed length, which MATLAB and Octave read as they read their own. One that is too long
@@ -199,11 +233,7 @@ void hold_structure_back(hid_t file) {
   }
 }
 
-}  // namespace
-
-Expected<std::unique_ptr<Hdf5Writer>> create_writer(const std::filesystem::path& file,
-                                                    const std::vector<TraceColumn>& columns) {
-  const Calls calls;
+Expected<std::unique_ptr<FileWriter>> begin_file(const std::filesystem::path& file) {
   const Handle access = file_access();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), &H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
@@ -214,11 +244,43 @@ Expected<std::unique_ptr<Hdf5Writer>> create_writer(const std::filesystem::path&
   hold_structure_back(opened.id());
   auto writer = std::make_unique<FileWriter>(file.string(), std::move(opened));
   TWIN_CHECK(writer->set_text("created_by", "twin"));
+  return writer;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Hdf5Writer>> create_writer(const std::filesystem::path& file,
+                                                    const std::vector<TraceColumn>& columns) {
+  const Calls calls;
+  TWIN_TRY(std::unique_ptr<FileWriter> writer, begin_file(file));
   for (const TraceColumn& column : columns) {
     TWIN_CHECK(writer->add(column));
   }
   TWIN_CHECK(writer->flush_file());
   return writer;
+}
+
+Expected<void> write_table(const std::filesystem::path& file,
+                           const std::vector<Hdf5TableColumn>& columns) {
+  const Calls calls;
+  TWIN_TRY(const std::unique_ptr<FileWriter> writer, begin_file(file));
+  std::vector<const std::vector<double>*> numbers;
+  for (const Hdf5TableColumn& column : columns) {
+    if (column.texts.empty()) {
+      TWIN_CHECK(writer->add(column.column));
+      numbers.push_back(&column.numbers);
+    } else {
+      TWIN_CHECK(writer->add_texts(column.column, column.texts));
+    }
+  }
+  std::vector<double> row(numbers.size());
+  for (std::size_t i = 0; !numbers.empty() && i < numbers.front()->size(); ++i) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      row[k] = (*numbers[k])[i];
+    }
+    TWIN_CHECK(writer->rows(row));
+  }
+  return writer->close();
 }
 
 }  // namespace twin::results::hdf5

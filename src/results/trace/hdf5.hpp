@@ -56,12 +56,22 @@ class Hdf5Columns {
   virtual Expected<void> read(std::size_t column, std::size_t first, std::span<double> values) = 0;
 };
 
+/// A column of a table that is small enough to be in memory: numbers, or texts.
+struct Hdf5TableColumn {
+  TraceColumn column;  ///< name, kind, unit and meaning
+  std::vector<double> numbers{};
+  std::vector<std::string> texts{};  ///< where there are no numbers
+};
+
 /// What the module does.
 struct Hdf5Module {
   /// Begins a file, in place of one that is there.
   Expected<std::unique_ptr<Hdf5Writer>> (*create)(const std::filesystem::path& file,
                                                   const std::vector<TraceColumn>& columns);
   Expected<std::unique_ptr<Hdf5Columns>> (*open)(const std::filesystem::path& file);
+  /// Writes a whole table, in place of a file that is there. All columns are as long.
+  Expected<void> (*write_table)(const std::filesystem::path& file,
+                                const std::vector<Hdf5TableColumn>& columns);
 };
 
 /// Type and name of the one function that twin-hdf5.so shows.
