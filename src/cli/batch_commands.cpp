@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
+#include "core/parallel_for.hpp"
 #include "core/wall_clock.hpp"
 #include "session/results.hpp"
 #include "studies/batch/batch.hpp"
@@ -21,18 +24,31 @@ namespace {
 
 namespace batch = studies::batch;
 
+/// Parts of the jobs that are prepared side by side, each with its own copy of their programs.
+constexpr std::size_t kParts = 16;
+
 /// Prepares jobs. An error names the job by its number, which in a job file is its line.
 Expected<std::vector<batch::PreparedJob>> prepare(const std::vector<batch::Job>& jobs) {
-  batch::JobMaker maker;
-  std::vector<batch::PreparedJob> prepared;
-  prepared.reserve(jobs.size());
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    auto job = maker.prepare(jobs[i]);
-    if (!job) {
-      job.error().message = fmt::format("job {}: {}", i + 1, job.error().message);
-      return tl::unexpected(std::move(job.error()));
+  const std::size_t parts = std::min<std::size_t>(jobs.size(), kParts);
+  std::vector<batch::PreparedJob> prepared(jobs.size());
+  std::vector<std::optional<Error>> errors(parts);
+  parallel_for(parts, [&](std::size_t part) {
+    batch::JobMaker maker;
+    const std::size_t end = (part + 1) * jobs.size() / parts;
+    for (std::size_t i = part * jobs.size() / parts; i < end; ++i) {
+      auto job = maker.prepare(jobs[i]);
+      if (!job) {
+        errors[part] = std::move(job.error());
+        errors[part]->message = fmt::format("job {}: {}", i + 1, errors[part]->message);
+        return;
+      }
+      prepared[i] = std::move(*job);
     }
-    prepared.push_back(std::move(*job));
+  });
+  for (auto& error : errors) {
+    if (error) {
+      return tl::unexpected(*std::move(error));
+    }
   }
   return prepared;
 }
