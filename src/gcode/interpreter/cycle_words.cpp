@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "gcode/interpreter/modal_state.hpp"
@@ -137,6 +138,10 @@ Expected<CycleLine> CycleWords::read(const LineWords& words, const ModalState& s
   if (state.is_incremental) {
     line.step = hole - place;
     line.step[axes.third] = 0.0;
+    if (words.has_any(kPolarLetters)) {
+      line.polar_step = Vec2(words.value_or_zero(kPolarRadius) * state.unit,
+                             words.value_or_zero(kPolarAngle) * std::numbers::pi / 180.0);
+    }
   }
   line.initial = *initial_;
   const double base = state.is_incremental ? line.initial : 0.0;
