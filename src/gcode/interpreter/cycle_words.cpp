@@ -59,6 +59,10 @@ Expected<void> CycleWords::keep(const LineWords& words, char up) {
   take(up, kept_.bottom);
   take('R', kept_.retract);
   take('Q', kept_.peck);
+  if (words.has('P') && words.value('P') < 0.0) {
+    return fail_at(words.column('P'),
+                   fmt::format("P{:.10g}: expected zero or more", words.value('P')));
+  }
   take('P', kept_.dwell);
   const Cycle& cycle = cycle_of(code_);
   const auto lacks = [&](std::string_view what) {
