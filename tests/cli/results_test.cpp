@@ -148,7 +148,8 @@ TEST_F(Results, BeginWhereTheMachineStands) {
     EXPECT_NEAR(summary["path_length_mm"].get<double>(), 4.0, 0.05);
     EXPECT_NEAR(rows.column("x_cmd_mm").front(), 10.0, 1e-3);
     EXPECT_NEAR(rows.column("x_enc_mm").front(), 10.0, 1e-3);
-    EXPECT_NEAR(rows.column("y_table_mm").front(), 5.0, 1e-3);
+    EXPECT_NEAR(rows.column("y_enc_mm").front(), 5.0, 1e-3);
+    EXPECT_NEAR(rows.column("y_table_mm").front(), 5.0, 0.02);  // the table is off its encoder
     EXPECT_NEAR(rows.last("y_table_mm"), 7.0, 0.02);
     EXPECT_LT(summary["contour_error_um"]["max"].get<double>(), 100.0);
   }
