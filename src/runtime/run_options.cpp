@@ -20,6 +20,9 @@ gcode::ReaderOptions reader_options(const config::MachineFile& machine,
   options.workpiece = program.workpiece;
   options.tool_table = program.tool_table;
   options.default_feedrate = program.default_feedrate;
+  options.parameters = program.parameters;
+  options.start = program.start;
+  options.lifts_start = program.lifts_start;
   options.largest_feedrate = machine.limits.feedrate;
   options.most_lines = program.most_lines;
   return options;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/limits.hpp"
@@ -155,7 +156,9 @@ struct Summary {
   std::string version;             ///< version of twin that made the run, as in "0.9.0"
   std::string command;             ///< the command line, or a caller's own words; may be empty
   std::string program_sha256;      ///< checksum of the NC program, 64 hexadecimal digits
-  std::vector<Setting> settings;   ///< all settings of the machine file, as used
+  /// Files of subprograms that the program called, each with its checksum.
+  std::vector<std::pair<std::string, std::string>> subprograms;
+  std::vector<Setting> settings;  ///< all settings of the machine file, as used
 };
 
 /// Text of summary.json: keys in a fixed order, nine significant digits, the same bytes for the

@@ -94,6 +94,9 @@ void add_origin(Json& json, const Summary& summary) {
   json["version"] = summary.version;
   json["command"] = summary.command;
   json["program_sha256"] = summary.program_sha256;
+  for (const auto& [file, sha256] : summary.subprograms) {
+    json["subprograms"].push_back({{"file", file}, {"sha256", sha256}});
+  }
   json["settings"] = json_of(summary.settings);
 }
 
