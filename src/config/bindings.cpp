@@ -73,6 +73,9 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "circular contouring error, Eq. 4"});
   list.push_back(
       {section, "corner_error", "mm", &p.corner_error, 1e-6, 10.0, "corner error, Eqs. 1 and 16"});
+  list.push_back({section, "critical_feedrate", "mm_per_min", &p.critical_feedrate, 1.0, 1e6,
+                  "certified planner: tighter bends than A_max / V^2 keep the circular error",
+                  kPerMinute});
   list.push_back({section, "chord_error", "mm", &s.chord_error, 1e-6, 10.0,
                   "chord tolerance; a curve's distance from the polygon"});
   list.push_back(
