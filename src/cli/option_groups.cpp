@@ -211,8 +211,9 @@ void add_last_results(CLI::App& command, ResultArguments& results, const std::st
 
 void add_video(CLI::App& command, VideoArguments& video) {
   command.add_flag("--video", video.is_wanted, "Render video.mp4, as long as the machining");
-  command.add_option("--camera", video.camera, "Camera of the video")
-      ->check(CLI::IsMember({"iso", "top"}))
+  command.add_option("--camera", video.camera, "Camera of the video; implies --video")
+      ->check(CLI::IsMember({"iso", "top", "follow"}))
+      ->each([&video](const std::string&) { video.is_wanted = true; })
       ->type_name("NAME")
       ->capture_default_str();
 }

@@ -34,6 +34,14 @@ gcode::ReaderOptions reading_of(const nlohmann::json& summary) {
   return runtime::reader_options(machine, std::nullopt);
 }
 
+/// "dolphin.nc, simulated" where the summary beside the trace says so.
+std::string video_title(const std::string& title, const std::filesystem::path& folder) {
+  const auto origin = read_origin(folder);
+  const auto json = nlohmann::json::parse(origin ? origin->summary : "", nullptr, false);
+  const bool is_simulated = json.is_object() && json.value("simulated", nlohmann::json()) == true;
+  return is_simulated ? title + ", simulated" : title;
+}
+
 }  // namespace
 
 Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
@@ -88,7 +96,7 @@ Expected<void> render_video(const VideoRequest& request) {
   input.trace_csv = request.folder / request.trace;
   input.scene_xml = request.model.parent_path() / "scene.xml";
   input.output = request.folder / "video.mp4";
-  input.title = request.title;
+  input.title = video_title(request.title, request.folder);
   input.camera = request.camera;
   input.progress = request.progress;
   TWIN_CHECK(pictures::video::write_video(input));

@@ -53,7 +53,7 @@ struct VideoRequest {
   std::filesystem::path folder;            ///< holds the trace; video.mp4 goes beside it
   std::filesystem::path model;             ///< MJCF file of the table; scene.xml is beside it
   std::string title;                       ///< first line of the read-out
-  std::string camera = "iso";              ///< camera of the scene: "iso" or "top"
+  std::string camera = "iso";              ///< camera of the scene: "iso", "top" or "follow"
   std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; may be empty
   std::string trace = "trace.csv";         ///< name of the trace
 };

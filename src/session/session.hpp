@@ -115,7 +115,7 @@ class Session {
 
   /// Renders the video of the trace that run() has left.
   ///
-  /// @param camera    camera of the scene: "iso" or "top"
+  /// @param camera    camera of the scene: "iso", "top" or "follow"
   /// @param progress  gets the done share, 0 to 1; may be empty
   Expected<void> render_video(const std::string& camera = "iso",
                               std::function<void(double)> progress = {}) const;

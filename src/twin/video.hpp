@@ -10,7 +10,7 @@ namespace twin {
 
 /// How a video is rendered.
 struct VideoOptions {
-  std::string camera = "iso";              ///< camera of the scene: "iso" or "top"
+  std::string camera = "iso";              ///< camera of the scene: "iso", "top" or "follow"
   std::string title{};                     ///< first line of the read-out; empty: the program
   std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; may be empty
 };

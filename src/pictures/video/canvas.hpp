@@ -27,6 +27,8 @@ class Canvas {
   /// @param a,b  ends [pixels], (0, 0) the left upper corner, pixel centres at halves
   void line(const Vec2& a, const Vec2& b, Colour colour);
 
+  void set_line_width(double line_width) noexcept { half_width_ = line_width / 2.0; }
+
   const Image& image() const noexcept { return image_; }
   /// The part that was drawn on since the last call; all of it the first time, empty when nothing
   /// was.

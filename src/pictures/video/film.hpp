@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "pictures/video/canvas.hpp"
 #include "pictures/video/overlay.hpp"
+#include "pictures/video/survey.hpp"
 #include "pictures/video/table_scene.hpp"
 #include "pictures/video/trace_rows.hpp"
 
@@ -20,6 +21,7 @@ struct Shot {
 /// Plays a trace in the scene, frame after frame. All calls from one thread.
 class Film {
  public:
+  /// @param camera   of the scene; "follow" is the camera iso, moved along with the plate
   /// @param samples  per pixel and edge: 0 or 4
   static Expected<Film> create(const std::filesystem::path& trace_csv,
                                const std::filesystem::path& scene_xml, const std::string& camera,
@@ -33,13 +35,24 @@ class Film {
   Expected<Shot> shoot(double t);
 
  private:
-  Film(const Survey& survey, TraceRows&& rows, TableScene&& scene, int width, int height);
+  /// How the camera stands, and how wide the pen's line is.
+  struct View {
+    Vec3 camera = Vec3::Zero();  // place [m]; of a camera that follows: with the plate at (0, 0)
+    bool follows = false;
+    double line = 9.0;  // [texels]
+  };
+  static View choose_view(const Survey& survey, const TableScene& scene, bool follows, int height);
+
+  Film(Survey&& survey, TraceRows&& rows, TableScene&& scene, const View& view, int width,
+       int height);
+  Expected<void> draw_target(const std::filesystem::path& trace_csv);
   Expected<void> play_until(double t);
 
   Survey survey_;
   ColourScale scale_;
   TraceRows rows_;
   TableScene scene_;
+  View view_;
   PenTrail plate_;
   PenTrail inset_;
   TraceRow shown_;  // newest row that is not later than the last shot

@@ -21,18 +21,29 @@ constexpr double kPanelPart = 0.72;  // how much of the panel hides what is belo
 constexpr int kMargin = 16;          // [pixels]
 constexpr int kScaleHeight = 12;     // [pixels]
 
+/// A dot where the pen is. @param x,y  left upper corner of the inset
+void mark_pen(Image& frame, int x, int y, const Vec2& pen) {
+  const int pen_x = x + static_cast<int>(std::lround(pen.x()));
+  const int pen_y = y + static_cast<int>(std::lround(pen.y()));
+  frame.mix(Rectangle{pen_x - 3, pen_y - 3, 7, 7}, kText, 1.0);
+  frame.mix(Rectangle{pen_x - 2, pen_y - 2, 5, 5}, kPen, 1.0);
+}
+
 }  // namespace
 
-Overlay::Overlay(Font font, ColourScale scale, std::string title, double duration, bool has_error)
+Overlay::Overlay(Font font, ColourScale scale, Strip strip, std::string title, double duration,
+                 bool has_error)
     : font_(std::move(font)),
       scale_(scale),
+      strip_(std::move(strip)),
       title_(std::move(title)),
       duration_(duration),
       has_error_(has_error) {}
 
 void Overlay::draw(Image& frame, const Readout& readout) const {
+  strip_.draw(frame, font_, readout.row.t);
   draw_readout(frame, readout.row);
-  if (readout.inset.width() > 0) {
+  if (readout.inset.width() > 0 || has_error_) {
     draw_inset(frame, readout);
   }
 }
@@ -71,16 +82,15 @@ void Overlay::draw_inset(Image& frame, const Readout& readout) const {
   const int width =
       std::max(inset.width(), has_error_ ? font_.width("00  contour error [um]  00") : 0);
   const Rectangle panel{frame.width() - width - 2 * kMargin - kMargin / 2,
-                        frame.height() - inset.height() - below - 2 * kMargin, width + kMargin,
-                        inset.height() + below + kMargin};
+                        frame.height() - strip_.height() - inset.height() - below - 2 * kMargin,
+                        width + kMargin, inset.height() + below + kMargin};
   const int x = panel.x + (panel.width - inset.width()) / 2;
   const int y = panel.y + kMargin / 2;
   frame.mix(panel, kPanel, kPanelPart);
-  frame.paste(inset, x, y);
-  const int pen_x = x + static_cast<int>(std::lround(readout.pen.x()));
-  const int pen_y = y + static_cast<int>(std::lround(readout.pen.y()));
-  frame.mix(Rectangle{pen_x - 3, pen_y - 3, 7, 7}, kText, 1.0);
-  frame.mix(Rectangle{pen_x - 2, pen_y - 2, 5, 5}, kPen, 1.0);
+  if (inset.width() > 0) {
+    frame.paste(inset, x, y);
+    mark_pen(frame, x, y, readout.pen);
+  }
   if (has_error_) {
     draw_scale(frame,
                {panel.x + kMargin / 2, y + inset.height() + kMargin / 2, width, kScaleHeight});

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -43,16 +45,24 @@ struct Renderer : mjrContext {
 /// Pixels below the base line that letters such as g need.
 int descent(const mjrContext& renderer) { return renderer.charHeight / 4; }
 
-/// What a frame costs is decided here; reflections, which would cost as much again, are off as
-/// well.
+/// What a frame costs is decided here; reflections and shadows, each of which would cost as much
+/// again, are off as well.
 void set_quality(mjModel& model, int width, int height, int samples) {
   model.vis.global.offwidth = width;
   model.vis.global.offheight = height;
   model.vis.quality.offsamples = samples;
-  model.vis.quality.shadowsize = std::min(model.vis.quality.shadowsize, 1024);
+  model.vis.quality.shadowsize = 0;
   model.vis.quality.numslices = std::min(model.vis.quality.numslices, 16);
   model.vis.quality.numstacks = std::min(model.vis.quality.numstacks, 8);
   model.vis.quality.numquads = std::min(model.vis.quality.numquads, 2);
+}
+
+/// The drawing is seen through the pen, which is wider than most of its details.
+void make_pen_transparent(mjModel& model) {
+  const int material = mj_name2id(&model, mjOBJ_MATERIAL, "pen");
+  if (material >= 0) {
+    model.mat_rgba[4 * material + 3] = 0.35F;
+  }
 }
 
 }  // namespace
@@ -70,6 +80,7 @@ struct TableScene::Parts {
     mjv_defaultCamera(&camera);
     mjv_defaultOption(&option);
     scene.flags[mjRND_REFLECTION] = 0;
+    scene.flags[mjRND_SHADOW] = 0;
   }
 
   /// Reads a part of the frame that was drawn last, lower left corner first, into a picture of its
@@ -122,6 +133,7 @@ Expected<TableScene> TableScene::create(const std::filesystem::path& scene_xml,
     }
   }
   set_quality(**model, width, height, samples);
+  make_pen_transparent(**model);
   auto data = hal::mujoco::make_data(**model);
   if (!data) {
     return tl::unexpected(std::move(data.error()));
@@ -136,6 +148,23 @@ Expected<TableScene> TableScene::create(const std::filesystem::path& scene_xml,
   parts->camera.type = mjCAMERA_FIXED;
   parts->camera.fixedcamid = *camera_id;
   return TableScene(std::move(parts));
+}
+
+Lens TableScene::lens() const {
+  const mjModel& model = *parts_->model;
+  const int id = parts_->camera.fixedcamid;
+  mj_forward(&model, parts_->data.get());
+  const mjtNum* const axes = parts_->data->cam_xmat + 9 * id;  // right, up and back are columns
+  Lens lens;
+  lens.right = {axes[0], axes[3], axes[6]};
+  lens.up = {axes[1], axes[4], axes[7]};
+  lens.tangent.y() = std::tan(model.cam_fovy[id] * std::numbers::pi / 360.0);
+  lens.tangent.x() = lens.tangent.y() * parts_->viewport.width / parts_->viewport.height;
+  return lens;
+}
+
+void TableScene::stand_camera_at(const Vec3& place) {
+  Vec3::Map(parts_->model->cam_pos + 3 * parts_->camera.fixedcamid) = place;
 }
 
 void TableScene::move_to(const Vec3& position) {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "pictures/video/framing.hpp"
 #include "pictures/video/image.hpp"
 
 namespace twin::pictures::video {
@@ -26,6 +27,12 @@ class TableScene {
   TableScene(TableScene&&) noexcept;
   TableScene& operator=(TableScene&&) noexcept;
   ~TableScene();
+
+  Lens lens() const;  ///< of the camera
+
+  /// Stands the camera somewhere else, its direction unchanged; seen after the next move_to().
+  /// @param place  [m]
+  void stand_camera_at(const Vec3& place);
 
   /// Moves the table. @param position  of the pen on the plate x, y and its height z [mm]
   void move_to(const Vec3& position);

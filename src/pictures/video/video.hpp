@@ -15,7 +15,7 @@ struct VideoInput {
   std::filesystem::path scene_xml;  ///< MJCF scene with the table
   std::filesystem::path output;     ///< MP4 file
   std::string title = {};           ///< first line of the read-out
-  std::string camera = "iso";       ///< camera of the scene
+  std::string camera = "iso";       ///< camera of the scene, or "follow"
   int width = 1280;                 ///< even [pixels]
   int height = 720;                 ///< even [pixels]
   int frames_per_second = 30;       ///< [frames/s]
@@ -31,7 +31,9 @@ struct VideoReport {
 };
 
 /// Renders a trace offscreen as H.264 video in MP4: the table moves, the pen draws its trace in the
-/// colours of the contour error, beside it feedrate, time, NC line and a magnified drawing. Frame i
+/// colours of the contour error over the commanded path, beside it feedrate, time, NC line and a
+/// magnified drawing, under it feedrate and error over time. The camera stands so that the program
+/// fills the picture; "follow" goes along with the plate. Frame i
 /// shows the instant i / frames_per_second, the last one the end. The trace is streamed; memory
 /// does not depend on its length. Written whole or not at all.
 ///

@@ -1,4 +1,4 @@
-#include "pictures/video/trace_rows.hpp"
+#include "pictures/video/survey.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::pictures::video {
-namespace trace_rows_test {
+namespace survey_test {
 
 using test::put;
 using test::TempFolder;
@@ -59,5 +59,5 @@ TEST(SurveyTrace, AnEmptyTraceIsAnError) {
   EXPECT_EQ(survey.error().message, "the trace has no rows");
 }
 
-}  // namespace trace_rows_test
+}  // namespace survey_test
 }  // namespace twin::pictures::video
