@@ -48,6 +48,8 @@ void add_limits(List& list, Limits& l) {
   list.push_back({section, "acceleration", "mm_per_s2", &l.acceleration, 1.0, 1e6,
                   "A_max, tangential and normal, each"});
   list.push_back({section, "jerk", "mm_per_s3", &l.jerk, 1.0, 1e9, "J_max, tangential"});
+  list.push_back({section, "jerk_of", "", choice(l.jerk_of, {"path", "vector"}), 0.0, 0.0,
+                  "what jerk bounds: along the path, or the vector that the machine feels"});
   list.push_back({section, "axis_feedrate", "mm_per_min", &l.axis_feedrate, 0.0, 1e6,
                   "largest feedrate of each axis, x y z; 0: no limit of its own", kPerMinute});
   list.push_back({section, "axis_acceleration", "mm_per_s2", &l.axis_acceleration, 0.0, 1e6,

@@ -117,10 +117,10 @@ Expected<void> check_axis_limits(const Limits& limits) {
 }  // namespace
 
 Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>& given) {
-  if (machine.path.planner != Planner::kCertified) {
-    return {};
-  }
-  for (const PaperOnly& setting : paper_only_settings(machine)) {
+  const std::vector<PaperOnly> paper_only = machine.path.planner == Planner::kCertified
+                                                ? paper_only_settings(machine)
+                                                : std::vector<PaperOnly>{};
+  for (const PaperOnly& setting : paper_only) {
     if (given.contains("planning.planner") && given.contains(setting.path)) {
       return fail(ErrorCode::kUsage,
                   fmt::format("planning.planner = certified does not have {} = {}, only paper has "
@@ -130,6 +130,11 @@ Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>
     machine.path.planner = Planner::kPaper;
     machine.add_note(
         fmt::format("planning.planner = paper, because {} = {}", setting.path, setting.value));
+  }
+  if (machine.path.planner == Planner::kPaper && machine.limits.jerk_of == JerkOf::kVector) {
+    return fail(ErrorCode::kUsage,
+                "limits.jerk_of = vector is the certified planner's alone, and planning.planner is "
+                "paper: leave one of them out");
   }
   return {};
 }

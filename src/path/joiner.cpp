@@ -222,6 +222,10 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
       v = std::min(v, std::cbrt(share * limits_.axis_jerk[i] * width * width / turn));
     }
   }
+  if (limits_.jerk_of == JerkOf::kVector && bump.turn.norm() > kNoJump) {
+    const double jerk = (kBumpShare - kBumpShareAlong) * limits_.jerk;
+    v = std::min(v, std::cbrt(jerk * width * width / bump.turn.norm()));
+  }
   if (!std::isfinite(v)) {
     return false;
   }

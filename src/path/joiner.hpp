@@ -21,7 +21,7 @@ namespace twin::path {
 /// but for rounding, and for decimals that the feedrate does not feel, is left as it is.
 ///
 /// A corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp. So
-/// does one where the jerk of single axes lets a stop at the corner lose less time than the way
+/// does one where the jerk of single axes, or its vector, lets a stop at the corner lose less time than the way
 /// through the bump (path/passage.hpp).
 ///
 /// Elements (lines, arcs, runs, pieces of a NURBS) come in order, with the length of the base path at their ends; a

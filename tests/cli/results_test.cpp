@@ -55,7 +55,7 @@ const std::string kOrigin = " version command program_sha256 settings";
 const std::string kAxis = "{velocity_mm_per_s acceleration_mm_per_s2 jerk_mm_per_s3}";
 const std::string kAudit =
     "audit{feedrate_mm_per_s tangential_acceleration_mm_per_s2 tangential_jerk_mm_per_s3 "
-    "normal_acceleration_mm_per_s2 axis{x" +
+    "normal_acceleration_mm_per_s2 vector_jerk_mm_per_s3 axis{x" +
     kAxis + " y" + kAxis + " z" + kAxis + "}}";
 const std::string kCutting =
     "feedrate_fluctuation_percent{max rms} "

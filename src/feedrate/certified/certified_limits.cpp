@@ -19,7 +19,7 @@ constexpr double kTwistMargin = 1.05;
 /// Periods in which zones are passed that become one, where axes have limits of their own: their rises
 /// cost more a zone. Corners of a nanometre would have thousands of zones otherwise; twice as much
 /// would begin to be felt at corners of 10 um.
-constexpr double kBriefZone = 0.02;
+constexpr double kBriefZone = 0.2;
 
 /// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
 /// changes along it. With twice as many, half as much is lost by taking the worst of each part.
@@ -218,7 +218,8 @@ void CertifiedLimits::keep_axes(const path::FittedCurve& curve, const BendInterv
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
   bends_.find(curve);
-  const bool has_dips = (limits_.axis_jerk.array() > 0.0).any();
+  const bool has_dips =
+      limits_.jerk_of == JerkOf::kVector || (limits_.axis_jerk.array() > 0.0).any();
   ZoneRow row(zones, has_axis_limits_ ? kBriefZone * period_ : 0.0);
   auto peak = bends_.peaks().begin();
   for (std::size_t i = 0; i < bends_.intervals().size(); ++i) {
@@ -281,6 +282,9 @@ void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) co
 
 RampLimits CertifiedLimits::least_ramp() const {
   RampLimits least = ramp_;
+  if (limits_.jerk_of == JerkOf::kVector) {
+    least.jerk *= kRest;
+  }
   for (int i = 0; i < 3; ++i) {
     if (limits_.axis_acceleration[i] > 0.0) {
       least.acceleration = std::min(least.acceleration, kRest * limits_.axis_acceleration[i]);

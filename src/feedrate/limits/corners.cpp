@@ -93,6 +93,16 @@ LimitZone axis_jump_limit(const path::PathPoint& before, const path::PathPoint& 
       zone.jerk = std::min(zone.jerk, kBesideJump * limits.axis_jerk[i] / std::max(along, 1e-3));
     }
   }
+  if (limits.jerk_of == JerkOf::kVector) {
+    const double j = kJumpShare * limits.jerk;
+    if (turn.norm() > kNoJump) {
+      zone.limit = std::min(zone.limit, j * period * period / turn.norm());
+    }
+    if (bend.norm() > kNoJump) {
+      zone.limit = std::min(zone.limit, std::sqrt(j * period / bend.norm()));
+      zone.jerk = std::min(zone.jerk, kBesideJump * limits.jerk);
+    }
+  }
   return zone;
 }
 

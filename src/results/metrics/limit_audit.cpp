@@ -63,6 +63,7 @@ void LimitAudit::judge_axes() noexcept {
   const Vec3 velocity = (p[0] - p[1]) / period_;
   const Vec3 acceleration = (p[0] - 2.0 * p[1] + p[2]) / (period_ * period_);
   const Vec3 jerk = (p[0] - p[3] - 3.0 * (p[1] - p[2])) / (period_ * period_ * period_);
+  raise(peaks_.vector_jerk, where_.vector_jerk, jerk.norm(), latest_ - 1);
   for (Eigen::Index i = 0; i < 3; ++i) {
     AxisPeaks& axis = peaks_.axis[static_cast<std::size_t>(i)];
     OfEachAxisPeak<std::int64_t>& where = where_.axis[static_cast<std::size_t>(i)];

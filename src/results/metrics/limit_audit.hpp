@@ -25,6 +25,7 @@ struct OfEachPeak {
   T tangential_acceleration{};              ///< [mm/s^2]
   T tangential_jerk{};                      ///< [mm/s^3]
   T normal_acceleration{};                  ///< [mm/s^2]
+  T vector_jerk{};                          ///< of x, y and z together [mm/s^3]
   std::array<OfEachAxisPeak<T>, 3> axis{};  ///< x, y, z
 };
 
@@ -35,6 +36,7 @@ constexpr void for_each_peak(Call&& call, Peaks&... peaks) {
   call(peaks.tangential_acceleration...);
   call(peaks.tangential_jerk...);
   call(peaks.normal_acceleration...);
+  call(peaks.vector_jerk...);
   for (std::size_t i = 0; i < 3; ++i) {
     call(peaks.axis[i].velocity...);
     call(peaks.axis[i].acceleration...);

@@ -125,6 +125,30 @@ TEST(CertifiedLimits, EveryAxisIsKeptBetweenTheSamplesByDifferencesOfThePath) {
   });
 }
 
+TEST(CertifiedLimits, TheVectorOfJerkIsKeptBetweenTheSamplesByDifferencesOfThePath) {
+  Limits limits;
+  limits.jerk_of = JerkOf::kVector;
+  for_places(limits, [&](const path::FittedCurve& fitted, const LimitZone& zone, double s) {
+    const double h = 1e-6;
+    if (zone.end - zone.begin < 100.0 * h) {
+      return;  // too short for differences
+    }
+    const double low = std::max(s - h, 0.0);
+    const double high = std::min(s + h, fitted.arc_length.length());
+    const path::PathPoint at = place(fitted, s);
+    const Vec3 twist =
+        (place(fitted, high).curvature - place(fitted, low).curvature) / (high - low);
+    const double j = std::min(zone.jerk, limits.jerk);
+    for (const double v : {0.5 * zone.limit, zone.limit}) {
+      for (const double a : {std::min(zone.acceleration, limits.acceleration),
+                             -std::min(zone.deceleration, limits.acceleration)}) {
+        const Vec3 jerk = j * at.tangent + 3.0 * v * a * at.curvature + v * v * v * twist;
+        EXPECT_LE(jerk.norm(), limits.jerk * 1.001);
+      }
+    }
+  });
+}
+
 // The third derivative of a helix is larger than kappa^2: its axis turns with 1 / c^2.
 TEST(CertifiedLimits, TheJerkOfAxesIsKeptOnASteepHelix) {
   Limits limits;

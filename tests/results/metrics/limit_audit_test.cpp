@@ -26,6 +26,7 @@ TEST(LimitAudit, StraightMoveReachesItsLimitsAndNoMore) {
   EXPECT_NEAR(peaks.feedrate, 150.0, 1e-6);
   EXPECT_NEAR(peaks.tangential_acceleration, 2450.0, 1e-3);
   EXPECT_NEAR(peaks.tangential_jerk, 50000.0, 1.0);
+  EXPECT_NEAR(peaks.vector_jerk, 50000.0, 1.0);
   EXPECT_LT(peaks.normal_acceleration, 1e-3);
   EXPECT_NEAR(peaks.axis[0].velocity, 90.0, 1e-6);
   EXPECT_NEAR(peaks.axis[1].acceleration, 1960.0, 1e-3);

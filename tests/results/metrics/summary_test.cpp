@@ -68,10 +68,10 @@ TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
   EXPECT_THAT(keys(json["blocks"]["length_mm"]), testing::ElementsAre("min", "mean", "max"));
   EXPECT_THAT(keys(json["segments"]), testing::ElementsAre("total", "curves", "lines", "arcs"));
   EXPECT_THAT(keys(json["tracking_error_um"]), testing::ElementsAre("x", "y"));
-  EXPECT_THAT(
-      keys(json["audit"]),
-      testing::ElementsAre("feedrate_mm_per_s", "tangential_acceleration_mm_per_s2",
-                           "tangential_jerk_mm_per_s3", "normal_acceleration_mm_per_s2", "axis"));
+  EXPECT_THAT(keys(json["audit"]),
+              testing::ElementsAre("feedrate_mm_per_s", "tangential_acceleration_mm_per_s2",
+                                   "tangential_jerk_mm_per_s3", "normal_acceleration_mm_per_s2",
+                                   "vector_jerk_mm_per_s3", "axis"));
   EXPECT_THAT(
       keys(json["audit"]["axis"]["z"]),
       testing::ElementsAre("velocity_mm_per_s", "acceleration_mm_per_s2", "jerk_mm_per_s3"));
