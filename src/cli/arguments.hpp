@@ -223,6 +223,28 @@ struct RigEmulateArguments {
   std::optional<double> duration;  ///< [s]; without it until it is stopped
 };
 
+struct PlantArguments {
+  MachineArguments machine;
+  std::string program;  ///< that LinuxCNC runs; empty: recordings are not held against one
+  std::string name;     ///< of the shared memory; empty: the user's own
+  std::vector<std::string> faults;  ///< KIND:AXIS@SECONDS
+  std::optional<double> duration;   ///< of simulated time [s]; without it until it is stopped
+  std::filesystem::path folder;     ///< of the recordings; empty: renders/plant
+  bool has_recording = true;        ///< without --no-trace
+};
+
+struct LinuxcncConfigArguments {
+  MachineArguments machine;
+  std::filesystem::path folder;  ///< empty: renders/linuxcnc
+};
+
+struct LinuxcncEvaluateArguments {
+  std::filesystem::path folder;  ///< of a recording
+  std::string program;           ///< that LinuxCNC ran
+  MachineArguments machine;
+  bool has_plots = true;  ///< without --no-plots
+};
+
 /// --help or --version: the text that is asked for.
 struct TextArguments {
   std::string text;
@@ -234,7 +256,8 @@ using Arguments =
                  ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
                  CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
                  SweepArguments, RigProbeArguments, RigMonitorArguments, RigCheckArguments,
-                 RigJogArguments, RigHomeArguments, RigEmulateArguments>;
+                 RigJogArguments, RigHomeArguments, RigEmulateArguments, PlantArguments,
+                 LinuxcncConfigArguments, LinuxcncEvaluateArguments>;
 
 /// Reads a command line.
 ///
