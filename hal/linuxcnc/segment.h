@@ -122,7 +122,7 @@ struct twin_segment {
   int32_t line;             /* plant: NC line, 0: none */
   uint32_t is_estop;        /* controller: the machine must be at rest */
   uint32_t is_hold;         /* controller: feed hold */
-  double feed_override;     /* controller: share of the programmed feedrate; 0: not connected */
+  double feed_override;     /* controller: share of the programmed feedrate; 0 holds */
   uint32_t is_running;      /* controller: the program drives */
   uint32_t has_switched_off; /* controller: the shim has, since the last is_running */
   uint32_t late;            /* controller: periods without an answer in time */

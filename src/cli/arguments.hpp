@@ -124,6 +124,7 @@ struct CompareArguments {
   std::optional<double> feedrate;  ///< [mm/s]
   MachineArguments machine;
   std::string hal = "mujoco";  ///< "mujoco", "ideal"
+  std::string with;            ///< "linuxcnc": another controller; empty: our own planners
   ResultArguments results;
 };
 

@@ -170,12 +170,12 @@ Expected<void> check_followed(const EvaluationRequest& request, const PlaceFinde
 Expected<results::Summary> evaluate(const EvaluationRequest& request) {
   const MustFinish finish;
   const std::filesystem::path file = request.folder / results::kTraceName;
-  TWIN_CHECK(session::prepare_output_file(request.folder / "plots" / results::kLimitName));
   TWIN_TRY(const Motion motion, find_motion(file));
   if (!motion.is_any) {
     return tl::unexpected(
         Error{ErrorCode::kFile, "nothing moves in this recording", file.string(), 0, 0});
   }
+  TWIN_CHECK(session::prepare_output_file(request.folder / "plots" / results::kLimitName));
   std::optional<gcode::Reader> for_places;
   std::optional<gcode::Reader> for_errors;
   PlaceFinder places(blocks_of(request, for_places));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <system_error>
 
 #include "core/atomic_file.hpp"
@@ -112,19 +113,30 @@ std::string loop(const config::MachineFile& machine, std::size_t axis) {
       gains.kd, gains.kf, gains.ka, gains.trim_V * per_volt);
 }
 
+/// Following errors that are allowed at rest and at the largest velocity [mm].
+std::array<double, 2> following_errors(const config::MachineFile& machine, std::size_t axis) {
+  const double velocity = largest_velocity(machine, axis);
+  if (!is_servo(axis)) {
+    // The pen slide lags behind its reference like a critically damped spring, by 2 v / omega.
+    const double lag = velocity / (std::numbers::pi * machine.table.pen_bandwidth_Hz);
+    return {2.0 * lag, 2.0 * lag};
+  }
+  const motion::SafetySettings& safety = machine.safety;
+  return {safety.tracking_error,
+          safety.tracking_error + safety.tracking_error_per_feedrate * velocity};
+}
+
 std::string joint(const config::MachineFile& machine, std::size_t axis, bool is_homed_here) {
   const auto k = static_cast<Eigen::Index>(axis);
-  const double velocity = largest_velocity(machine, axis);
-  const double acceleration = largest_acceleration(machine, axis);
   const std::string limits = fmt::format(
       "MIN_LIMIT = {:g}\nMAX_LIMIT = {:g}\nMAX_VELOCITY = {:g}\nMAX_ACCELERATION = {:g}\n",
-      machine.limits.travel_min[k], machine.limits.travel_max[k], velocity, acceleration);
-  const motion::SafetySettings& safety = machine.safety;
+      machine.limits.travel_min[k], machine.limits.travel_max[k], largest_velocity(machine, axis),
+      largest_acceleration(machine, axis));
+  const auto [at_rest, at_speed] = following_errors(machine, axis);
   return fmt::format(
       "[AXIS_{}]\n{}\n[JOINT_{}]\nTYPE = LINEAR\n{}BACKLASH = 0\nMIN_FERROR = {:g}\nFERROR = {:g}\n"
       "{}{}\n",
-      kLetters[axis], limits, axis, limits, safety.tracking_error,
-      safety.tracking_error + safety.tracking_error_per_feedrate * velocity, loop(machine, axis),
+      kLetters[axis], limits, axis, limits, at_rest, at_speed, loop(machine, axis),
       homing(machine, axis, is_homed_here));
 }
 
@@ -165,23 +177,27 @@ std::string ini_text(const config::MachineFile& machine, const ConfigOptions& op
   return text;
 }
 
-std::string hal_text(const config::MachineFile& machine) {
+std::string hal_text(const config::MachineFile& machine, const std::string& segment) {
   std::string text = fmt::format(
       "# HAL of the table of {}: `twin plant` behind the component twin, LinuxCNC's pid in front.\n"
       "loadrt [KINS]KINEMATICS\n"
       "loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS\n"
-      "loadrt pid names=pid.x,pid.y\nloadrt twin\n\n"
+      "loadrt pid names=pid.x,pid.y\nloadrt twin{}\nloadrt and2\n\n"
       "addf twin.read servo-thread\naddf motion-command-handler servo-thread\n"
       "addf motion-controller servo-thread\naddf pid.x.do-pid-calcs servo-thread\n"
-      "addf pid.y.do-pid-calcs servo-thread\naddf twin.write servo-thread\n\n",
-      machine.name);
+      "addf pid.y.do-pid-calcs servo-thread\naddf and2.0 servo-thread\naddf twin.write "
+      "servo-thread\n\n",
+      machine.name, segment.empty() ? "" : " segment=" + segment);
   text += servo_nets('x', 0) + servo_nets('y', 1);
   text +=
       "net z-command joint.2.motor-pos-cmd => twin.z.position-cmd\n"
       "net z-feedback twin.z.position-fb => joint.2.motor-pos-fb\n"
       "net z-offset joint.2.motor-offset => twin.z.motor-offset\n\n"
       "net line motion.program-line => twin.line\n"
-      "net recording halui.program.is-running => twin.record\n\n"
+      "# A program is recorded, MDI is not.\n"
+      "net is-running halui.program.is-running => and2.0.in0\n"
+      "net is-auto halui.mode.is-auto => and2.0.in1\n"
+      "net recording and2.0.out => twin.record\n\n"
       "net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in\n"
       "net fault-reset iocontrol.0.user-request-enable => twin.x.fault-reset twin.y.fault-reset\n"
       "net tool-prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared\n"
@@ -201,7 +217,10 @@ std::string stg_record_text() {
   }
   return text +
          "net line motion.program-line => stg.line\n"
-         "net recording halui.program.is-running => stg.record\n";
+         "loadrt and2\naddf and2.0 servo-thread\n"
+         "net is-running halui.program.is-running => and2.0.in0\n"
+         "net is-auto halui.mode.is-auto => and2.0.in1\n"
+         "net recording and2.0.out => stg.record\n";
 }
 
 Expected<std::vector<std::filesystem::path>> write_config(const config::MachineFile& machine,

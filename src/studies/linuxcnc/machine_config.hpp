@@ -32,7 +32,8 @@ struct ConfigOptions {
 std::string ini_text(const config::MachineFile& machine, const ConfigOptions& options);
 
 /// Text of the HAL file that goes with it, of Profile::kTwin.
-std::string hal_text(const config::MachineFile& machine);
+/// @param segment  shared memory of the plant; empty: the user's own
+std::string hal_text(const config::MachineFile& machine, const std::string& segment = {});
 
 /// Text of the HAL file that tells `hal_stg` what is to be recorded.
 std::string stg_record_text();

@@ -46,7 +46,23 @@ results::ColumnChoice recording_columns() {
 Recordings::Recordings(std::filesystem::path folder, double period)
     : folder_(std::move(folder)), period_(period), columns_(recording_columns()) {}
 
+/// Keeps the last rest of the set point, and what came after it.
+void Recordings::forget_earlier_motion() {
+  const auto stands = [this](std::size_t i) {
+    return (before_[i].command - before_[i - 1].command).norm() <= 0.0;
+  };
+  std::size_t first = before_.empty() ? 0 : before_.size() - 1;
+  while (first > 0 && !stands(first)) {
+    --first;
+  }
+  while (first > 0 && stands(first)) {
+    --first;
+  }
+  before_.erase(before_.begin(), before_.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
 Expected<void> Recordings::begin() {
+  forget_earlier_motion();
   current_ = folder_ / fmt::format("{:03}", folders_.size() + 1);
   std::error_code error;
   std::filesystem::create_directories(current_, error);

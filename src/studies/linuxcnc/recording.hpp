@@ -29,8 +29,8 @@ results::ColumnChoice recording_columns();
 /// Traces of what LinuxCNC has done with a plant, a folder for each time that it was to be recorded:
 /// DIR/001, DIR/002, ...
 ///
-/// A recording has the third of a second before it as well, so that a signal which comes a little
-/// late loses nothing.
+/// A recording has up to a third of a second before it as well, so that a signal which comes a
+/// little late loses nothing; but not a motion that had come to rest before.
 class Recordings {
  public:
   /// @param folder  of the folders  @param period  of the plant [s]
@@ -46,6 +46,7 @@ class Recordings {
 
  private:
   Expected<void> begin();
+  void forget_earlier_motion();
   Expected<void> write(const results::Sample& sample);
   Expected<void> flush();
 

@@ -95,6 +95,29 @@ TEST_F(EvaluationTest, RefusesARecordingInWhichNothingMoves) {
   EXPECT_THAT(summary.error().message, HasSubstr("nothing moves"));
 }
 
+TEST_F(EvaluationTest, LeavesOutAMotionThatCameToRestBefore) {
+  memory.axis[0].command.is_recorded = 1;
+  const auto pass = [&](double position, int recording) {
+    memory.axis[0].command.position = position;
+    memory.is_recording = recording;
+    ASSERT_TRUE(recordings.take(memory));
+  };
+  for (int i = 0; i < 100; ++i) {
+    pass(-1.0 + 0.01 * i, 0);  // homing
+  }
+  for (int i = 0; i < 50; ++i) {
+    pass(0.0, 0);
+  }
+  for (int i = 1; i <= 100; ++i) {
+    pass(0.01 * i, i > 20 ? 1 : 0);
+  }
+  ASSERT_TRUE(recordings.end());
+  const auto summary = evaluate_it("G01 X1 F600\nM30\n");
+  ASSERT_TRUE(summary) << to_string(summary.error());
+  EXPECT_NEAR(summary->run->machining_time, 0.1, 1e-9);
+  EXPECT_LT(summary->command_contour_error.max, 1e-9);
+}
+
 TEST_F(EvaluationTest, RecordsWhatWasBeforeTheSignal) {
   memory.axis[0].command.is_recorded = 1;
   for (int i = 0; i < 1000; ++i) {
