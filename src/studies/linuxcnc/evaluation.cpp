@@ -14,7 +14,8 @@
 #include "core/this_program.hpp"
 #include "gcode/reader.hpp"
 #include "results/trace/columns.hpp"
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_files.hpp"
+#include "results/trace/trace_reader.hpp"
 #include "runtime/recorder.hpp"
 #include "runtime/run_options.hpp"
 #include "runtime/shared_blocks.hpp"
@@ -119,7 +120,7 @@ class Evaluation {
 
 Expected<void> take_rows(const std::filesystem::path& file, const Motion& motion,
                          Evaluation& evaluation) {
-  TWIN_TRY(results::CsvReader reader, results::CsvReader::open(file));
+  TWIN_TRY(results::TraceReader reader, results::TraceReader::open(file));
   TWIN_CHECK(reader.select(kRead));
   std::array<double, kRead.size()> values{};
   for (std::int64_t row = 0; row <= motion.last; ++row) {
