@@ -14,8 +14,8 @@
  * THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT
  * NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
  * NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
- * DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT
- * OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
+ * DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+ * OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
  *
  * The memory that a component of LinuxCNC's HAL (the shim) and the program twin share. It is the
  * only file that both include, in C and in C++.
@@ -27,8 +27,8 @@
  *   writes its half, ++asked, wakes   ------->  waits for asked to change
  *   waits for answered == asked       <-------  writes its half, answered = asked, wakes
  *
- * The half of the shim is the drive commands where the program is the plant (TWIN_USE_PLANT), and the
- * feedback where the program is the controller (TWIN_USE_CONTROLLER). asked and answered are futex
+ * The half of the shim is the drive commands where the program is the plant (TWIN_USE_PLANT), and
+ * the feedback where the program is the controller (TWIN_USE_CONTROLLER). asked and answered are futex
  * words; they and magic are read and written as atomics, with acquire and release. All else belongs
  * to the side whose turn it is.
  *
@@ -49,24 +49,25 @@
 #define TWIN_PLANT_SEGMENT "/twin-plant-%u"           /* by the user's number */
 #define TWIN_CONTROLLER_SEGMENT "/twin-controller-%u" /* the same */
 
-enum { TWIN_LOCK_SHIM = 0, TWIN_LOCK_PROGRAM = 1 };       /* bytes of the file */
-enum { TWIN_USE_PLANT = 1, TWIN_USE_CONTROLLER = 2 };     /* what the program is */
-enum { TWIN_AXIS_SERVO = 1, TWIN_AXIS_POSITION = 2 };     /* driven by volts, or by a set point */
-enum {                                                    /* bits of twin_command.faults */
-  TWIN_FAULT_ENCODER_FROZEN = 1,
-  TWIN_FAULT_VREF_OPEN = 2,
-  TWIN_FAULT_ALARM = 4,
-  TWIN_FAULT_LIMIT_POSITIVE = 8,
-  TWIN_FAULT_LIMIT_NEGATIVE = 16,
-  TWIN_FAULT_WIRE_BROKEN = 32
+enum { TWIN_LOCK_SHIM = 0, TWIN_LOCK_PROGRAM = 1 };   /* bytes of the file */
+enum { TWIN_USE_PLANT = 1, TWIN_USE_CONTROLLER = 2 }; /* what the program is */
+enum { TWIN_AXIS_SERVO = 1, TWIN_AXIS_POSITION = 2 }; /* driven by volts, or by a set point */
+enum {                                                /* bits of twin_command.faults */
+       TWIN_FAULT_ENCODER_FROZEN = 1,
+       TWIN_FAULT_VREF_OPEN = 2,
+       TWIN_FAULT_ALARM = 4,
+       TWIN_FAULT_LIMIT_POSITIVE = 8,
+       TWIN_FAULT_LIMIT_NEGATIVE = 16,
+       TWIN_FAULT_WIRE_BROKEN = 32
 };
 enum { TWIN_WIRED_COUNT = 1, TWIN_WIRED_POSITION = 2, TWIN_WIRED_READY = 4, TWIN_WIRED_OUTPUT = 8 };
 
 /* From the controller to the machine. */
 struct twin_command {
-  double volts;      /* V-REF [V] */
-  double position;   /* set point; moves a TWIN_AXIS_POSITION, else for the record alone [mm] */
-  double offset;     /* position that the encoder's zero has in the coordinates of `position`, negated [mm] */
+  double volts;    /* V-REF [V] */
+  double position; /* set point; moves a TWIN_AXIS_POSITION, else for the record alone [mm] */
+  double
+      offset; /* of the encoder's position: less this it is in the coordinates of `position` [mm] */
   double load_force; /* on the slide from outside [N] */
   uint32_t servo_on;
   uint32_t fault_reset; /* a rising edge clears an alarm */
@@ -94,7 +95,7 @@ struct twin_feedback {
 struct twin_axis {
   char name[TWIN_SEGMENT_NAME];
   uint32_t kind;             /* TWIN_AXIS_... */
-  uint32_t home_is_positive; /* the home switch is the positive limit switch, else the negative one */
+  uint32_t home_is_positive; /* the home switch is the positive limit switch, else the negative */
   double mm_per_count;       /* encoder scale, signed [mm/count] */
   double mm_per_s_per_volt;  /* V-REF scale, signed [mm/s/V] */
   struct twin_command command;
@@ -102,15 +103,15 @@ struct twin_axis {
 };
 
 struct twin_segment {
-  uint64_t magic;    /* TWIN_SEGMENT_MAGIC, last of all when it is made */
-  uint32_t version;  /* TWIN_SEGMENT_VERSION */
-  uint32_t size;     /* of this struct [bytes] */
-  uint32_t use;      /* TWIN_USE_... */
-  uint32_t axes;     /* in use */
-  double period;     /* of a question [s]: of the machine file, and of the shim's thread */
+  uint64_t magic;     /* TWIN_SEGMENT_MAGIC, last of all when it is made */
+  uint32_t version;   /* TWIN_SEGMENT_VERSION */
+  uint32_t size;      /* of this struct [bytes] */
+  uint32_t use;       /* TWIN_USE_... */
+  uint32_t axes;      /* in use */
+  double period;      /* of a question [s]: of the machine file, and of the shim's thread */
   double seen_period; /* of the other side, where it differs [s]; 0: not known yet */
-  int32_t program;   /* process, for messages */
-  int32_t shim;      /* process, for messages */
+  int32_t program;    /* process, for messages */
+  int32_t shim;       /* process, for messages */
 
   uint32_t asked;    /* futex word of the program */
   uint32_t answered; /* futex word of the shim */
@@ -118,15 +119,15 @@ struct twin_segment {
   uint64_t periods_answered; /* with a period simulated, or with set points of a controller */
   double time;               /* of the plant [s] */
 
-  uint32_t is_recording;    /* plant: this period is one of a program */
-  int32_t line;             /* plant: NC line, 0: none */
-  uint32_t is_estop;        /* controller: the machine must be at rest */
-  uint32_t is_hold;         /* controller: feed hold */
-  double feed_override;     /* controller: share of the programmed feedrate; 0 holds */
-  uint32_t is_running;      /* controller: the program drives */
+  uint32_t is_recording;     /* plant: this period is one of a program */
+  int32_t line;              /* plant: NC line, 0: none */
+  uint32_t is_estop;         /* controller: the machine must be at rest */
+  uint32_t is_hold;          /* controller: feed hold */
+  double feed_override;      /* controller: share of the programmed feedrate; 0 holds */
+  uint32_t is_running;       /* controller: the program drives */
   uint32_t has_switched_off; /* controller: the shim has, since the last is_running */
-  uint32_t late;            /* controller: periods without an answer in time */
-  uint32_t hold_periods;    /* controller: that a missed answer holds the outputs */
+  uint32_t late;             /* controller: periods without an answer in time */
+  uint32_t hold_periods;     /* controller: that a missed answer holds the outputs */
 
   struct twin_axis axis[TWIN_SEGMENT_AXES];
 };

@@ -16,13 +16,13 @@ MODULE_AUTHOR("the twin authors");
 MODULE_DESCRIPTION("a servo table behind the pins of the Servo To Go driver");
 MODULE_LICENSE("GPL");
 
-static char *segment = "";
+static char* segment = "";
 RTAPI_MP_STRING(segment, "shared memory of the plant; /twin-plant-UID where it is not given");
 static int base = 0;
 RTAPI_MP_INT(base, "address of the card; accepted and not used");
 static int num_chan = 0;
 RTAPI_MP_INT(num_chan, "channels; accepted and not used");
-static char *dio = "";
+static char* dio = "";
 RTAPI_MP_STRING(dio, "directions of the digital lines; accepted and not used");
 
 #define LINES 16 /* of inputs, and of outputs */
@@ -32,7 +32,7 @@ enum { ESTOP_OUT = 7, ESTOP_IN = 12, LUBE_IN = 13 };
 struct channel {
   hal_s32_t *counts, *rawcounts;
   hal_float_t *position, *dac_value, *adc_value;
-  hal_bit_t *index_enable;
+  hal_bit_t* index_enable;
   hal_float_t dac_offset, dac_gain, adc_offset, adc_gain;
 };
 
@@ -45,19 +45,19 @@ struct card {
   uint32_t enabled; /* by do-write, a bit a channel */
 };
 
-static struct card *it;
+static struct card* it;
 static int id;
 
-static void write_dacs(void *arg, long period) {
-  struct card *card = arg;
-  struct twin_segment *s = card->plant.shim.segment;
+static void write_dacs(void* arg, long period) {
+  struct card* card = arg;
+  struct twin_segment* s = card->plant.shim.segment;
   uint32_t i;
   if (!plant_may_ask(&card->plant, period)) {
     return;
   }
   for (i = 0; i < s->axes; ++i) {
-    const struct channel *c = &card->channel[i];
-    struct twin_axis *axis = &s->axis[i];
+    const struct channel* c = &card->channel[i];
+    struct twin_axis* axis = &s->axis[i];
     double volts = shim_finite((*c->dac_value - c->dac_offset) * c->dac_gain);
     volts = volts > 10.0 ? 10.0 : volts < -10.0 ? -10.0 : volts;
     if (axis->kind == TWIN_AXIS_SERVO) {
@@ -70,14 +70,14 @@ static void write_dacs(void *arg, long period) {
   plant_ask(&card->plant);
 }
 
-static void capture_position(void *arg, long period) {
-  struct card *card = arg;
-  const struct twin_segment *s = card->plant.shim.segment;
+static void capture_position(void* arg, long period) {
+  struct card* card = arg;
+  const struct twin_segment* s = card->plant.shim.segment;
   uint32_t i;
   (void)period;
   card->is_there = plant_wait(&card->plant);
   for (i = 0; card->is_there && i < s->axes; ++i) {
-    const struct channel *c = &card->channel[i];
+    const struct channel* c = &card->channel[i];
     const int64_t counts = plant_counts(&card->plant, i);
     *c->counts = plant_wrapped(counts);
     *c->rawcounts = plant_wrapped(s->axis[i].feedback.counts);
@@ -85,14 +85,14 @@ static void capture_position(void *arg, long period) {
   }
 }
 
-static void read_inputs(void *arg, long period) {
-  struct card *card = arg;
-  const struct twin_segment *s = card->plant.shim.segment;
+static void read_inputs(void* arg, long period) {
+  struct card* card = arg;
+  const struct twin_segment* s = card->plant.shim.segment;
   uint32_t i;
   (void)period;
   for (i = 0; i < s->axes && LINES_OF_CHANNEL * i < ESTOP_IN; ++i) {
-    const struct twin_axis *axis = &s->axis[i];
-    hal_bit_t **in = &card->in[LINES_OF_CHANNEL * i];
+    const struct twin_axis* axis = &s->axis[i];
+    hal_bit_t** in = &card->in[LINES_OF_CHANNEL * i];
     const int is_servo = axis->kind == TWIN_AXIS_SERVO;
     *in[LIMIT_POS] = is_servo && axis->feedback.limit_positive;
     *in[LIMIT_NEG] = is_servo && axis->feedback.limit_negative;
@@ -106,8 +106,8 @@ static void read_inputs(void *arg, long period) {
   }
 }
 
-static void write_outputs(void *arg, long period) {
-  struct card *card = arg;
+static void write_outputs(void* arg, long period) {
+  struct card* card = arg;
   uint32_t i;
   (void)period;
   card->enabled = 0;
@@ -116,14 +116,14 @@ static void write_outputs(void *arg, long period) {
   }
 }
 
-static void read_adcs(void *arg, long period) {
+static void read_adcs(void* arg, long period) {
   (void)arg;
   (void)period; /* nothing is connected to the analogue inputs */
 }
 
 static int channel_pins(uint32_t n) {
-  struct channel *c = &it->channel[n];
-  struct plant_axis *a = &it->plant.axis[n];
+  struct channel* c = &it->channel[n];
+  struct plant_axis* a = &it->plant.axis[n];
   c->dac_gain = 1.0;
   c->adc_gain = 1.0;
   return hal_pin_s32_newf(HAL_OUT, &c->counts, id, "stg.%u.counts", n) ||
@@ -147,7 +147,7 @@ static int line_pins(uint32_t n) {
 }
 
 int rtapi_app_main(void) {
-  static const char *const names[TWIN_SEGMENT_AXES] = {"0", "1", "2", "3", "4", "5", "6", "7"};
+  static const char* const names[TWIN_SEGMENT_AXES] = {"0", "1", "2", "3", "4", "5", "6", "7"};
   struct shim shim = {NULL, -1, "", "hal_stg"};
   uint32_t i;
   int bad = plant_open(&shim, segment, TWIN_PLANT_SEGMENT, TWIN_USE_PLANT, PLANT_START);

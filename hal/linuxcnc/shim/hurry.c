@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
  * A preload that makes LinuxCNC's threads sleep a share of their periods, so that LinuxCNC, its
- * position loops and a plant in lockstep go as fast as the computer lets them. For simulations only.
+ * position loops and a plant in lockstep go faster than the wall clock. For simulations only.
  *
  *   TWIN_HURRY=8 LD_PRELOAD=.../hurry.so linuxcnc FILE.ini
  *
@@ -14,18 +14,20 @@
 #include <stdlib.h>
 #include <time.h>
 
-typedef int (*sleep_function)(clockid_t, int, const struct timespec *, struct timespec *);
+typedef int (*sleep_function)(clockid_t, int, const struct timespec*, struct timespec*);
 
 static double speed(void) {
-  const char *text = getenv("TWIN_HURRY");
+  const char* text = getenv("TWIN_HURRY");
   const double given = text != NULL ? atof(text) : 1.0;
   return given > 1.0 ? given : 1.0;
 }
 
-static int64_t ns_of(const struct timespec *t) { return (int64_t)t->tv_sec * 1000000000LL + t->tv_nsec; }
+static int64_t ns_of(const struct timespec* t) {
+  return (int64_t)t->tv_sec * 1000000000LL + t->tv_nsec;
+}
 
-int clock_nanosleep(clockid_t clock, int flags, const struct timespec *until,
-                    struct timespec *left) {
+int clock_nanosleep(clockid_t clock, int flags, const struct timespec* until,
+                    struct timespec* left) {
   static _Thread_local int64_t asked; /* of the first sleep of the thread [ns] */
   static _Thread_local int64_t begun;
   static sleep_function next;

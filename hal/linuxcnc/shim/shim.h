@@ -22,9 +22,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "hal.h"
 #include "rtapi.h"
 #include "rtapi_app.h"
-#include "hal.h"
 
 #include "../segment.h"
 
@@ -32,10 +32,10 @@
 #define SHIM_SLICE_NS 50000000LL /* between two looks whether the other side lives */
 
 struct shim {
-  struct twin_segment *segment;
+  struct twin_segment* segment;
   int file;
   char name[64];         /* of the memory */
-  const char *component; /* for messages */
+  const char* component; /* for messages */
 };
 
 static int64_t shim_now(void) {
@@ -47,7 +47,7 @@ static int64_t shim_now(void) {
 /* The user that files belong to which this thread makes: rtapi_app is another one than it seems. */
 static uid_t shim_user(void) { return (uid_t)setfsuid((uid_t)-1); }
 
-static int shim_lock(int file, int byte, int command, struct flock *lock) {
+static int shim_lock(int file, int byte, int command, struct flock* lock) {
   memset(lock, 0, sizeof *lock);
   lock->l_type = F_WRLCK;
   lock->l_whence = SEEK_SET;
@@ -57,12 +57,13 @@ static int shim_lock(int file, int byte, int command, struct flock *lock) {
 }
 
 /* Whether the program holds its byte: it lives. */
-static int shim_has_program(const struct shim *shim) {
+static int shim_has_program(const struct shim* shim) {
   struct flock lock;
-  return shim_lock(shim->file, TWIN_LOCK_PROGRAM, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  return shim_lock(shim->file, TWIN_LOCK_PROGRAM, F_OFD_GETLK, &lock) == 0 &&
+         lock.l_type != F_UNLCK;
 }
 
-static void shim_path(struct shim *shim, const char *given, const char *usual, char *path,
+static void shim_path(struct shim* shim, const char* given, const char* usual, char* path,
                       size_t size) {
   if (given != NULL && given[0] != '\0') {
     snprintf(shim->name, sizeof shim->name, "%s%s", given[0] == '/' ? "" : "/", given);
@@ -73,23 +74,23 @@ static void shim_path(struct shim *shim, const char *given, const char *usual, c
 }
 
 /* Maps the file and holds this side's byte. */
-static int shim_take(struct shim *shim) {
+static int shim_take(struct shim* shim) {
   struct flock lock;
   if (shim_lock(shim->file, TWIN_LOCK_SHIM, F_OFD_SETLK, &lock) != 0) {
     SHIM_ERROR("%s: another component uses %s already\n", shim->component, shim->name);
     return -EBUSY;
   }
-  void *memory = mmap(NULL, sizeof(struct twin_segment), PROT_READ | PROT_WRITE, MAP_SHARED,
-                      shim->file, 0);
+  void* memory =
+      mmap(NULL, sizeof(struct twin_segment), PROT_READ | PROT_WRITE, MAP_SHARED, shim->file, 0);
   if (memory == MAP_FAILED) {
     SHIM_ERROR("%s: %s cannot be mapped: %s\n", shim->component, shim->name, strerror(errno));
     return -errno;
   }
-  shim->segment = (struct twin_segment *)memory;
+  shim->segment = (struct twin_segment*)memory;
   return 0;
 }
 
-static void shim_close(struct shim *shim) {
+static void shim_close(struct shim* shim) {
   if (shim->segment != NULL) {
     munmap(shim->segment, sizeof(struct twin_segment));
     shim->segment = NULL;
@@ -100,7 +101,7 @@ static void shim_close(struct shim *shim) {
   }
 }
 
-static int shim_has_owner(const struct shim *shim, const struct stat *status) {
+static int shim_has_owner(const struct shim* shim, const struct stat* status) {
   if (status->st_uid != shim_user() || (status->st_mode & 077) != 0) {
     SHIM_ERROR("%s: %s belongs to user %u with mode %03o, not to user %u alone\n", shim->component,
                shim->name, (unsigned)status->st_uid, (unsigned)(status->st_mode & 0777),
@@ -111,18 +112,18 @@ static int shim_has_owner(const struct shim *shim, const struct stat *status) {
 }
 
 /* The program's turn. */
-static void shim_ask(struct twin_segment *s) {
+static void shim_ask(struct twin_segment* s) {
   __atomic_add_fetch(&s->asked, 1, __ATOMIC_RELEASE);
   syscall(SYS_futex, &s->asked, FUTEX_WAKE, INT_MAX, NULL, NULL, 0);
 }
 
-static int shim_is_answered(const struct twin_segment *s) {
+static int shim_is_answered(const struct twin_segment* s) {
   return __atomic_load_n(&s->answered, __ATOMIC_ACQUIRE) ==
          __atomic_load_n(&s->asked, __ATOMIC_RELAXED);
 }
 
 /* Waits for the answer until an instant [ns]; false where it does not come. */
-static int shim_wait(struct twin_segment *s, int64_t until) {
+static int shim_wait(struct twin_segment* s, int64_t until) {
   while (!shim_is_answered(s)) {
     const uint32_t seen = __atomic_load_n(&s->answered, __ATOMIC_ACQUIRE);
     if (seen == __atomic_load_n(&s->asked, __ATOMIC_RELAXED)) {

@@ -12,7 +12,7 @@ MODULE_AUTHOR("the twin authors");
 MODULE_DESCRIPTION("a servo table with friction and drives behind HAL pins");
 MODULE_LICENSE("GPL");
 
-static char *segment = "";
+static char* segment = "";
 RTAPI_MP_STRING(segment, "shared memory of the plant; /twin-plant-UID where it is not given");
 
 struct drive_pins {
@@ -21,7 +21,7 @@ struct drive_pins {
   hal_float_t *position_fb, *velocity_fb, *torque_fb, *friction, *table_position;
   hal_s32_t *count, *rawcounts;
   hal_bit_t *ready, *fault, *limit_pos, *limit_neg, *home;
-  hal_bit_t *inject[6];
+  hal_bit_t* inject[6];
 };
 
 struct instance {
@@ -29,11 +29,11 @@ struct instance {
   struct drive_pins drive[TWIN_SEGMENT_AXES];
 };
 
-static struct instance *it;
+static struct instance* it;
 static int id;
 
 static const struct {
-  const char *name;
+  const char* name;
   uint32_t bit;
 } injected[6] = {{"inject-encoder-frozen", TWIN_FAULT_ENCODER_FROZEN},
                  {"inject-vref-open", TWIN_FAULT_VREF_OPEN},
@@ -42,7 +42,7 @@ static const struct {
                  {"inject-limit-neg", TWIN_FAULT_LIMIT_NEGATIVE},
                  {"inject-wire-broken", TWIN_FAULT_WIRE_BROKEN}};
 
-static int servo_pins(struct drive_pins *d, struct plant_axis *a, const char *n) {
+static int servo_pins(struct drive_pins* d, struct plant_axis* a, const char* n) {
   int i;
   int bad = hal_pin_float_newf(HAL_IN, &d->volts, id, "twin.%s.volts", n) ||
             hal_pin_float_newf(HAL_IN, &d->velocity_cmd, id, "twin.%s.velocity-cmd", n) ||
@@ -69,22 +69,22 @@ static int servo_pins(struct drive_pins *d, struct plant_axis *a, const char *n)
   return bad;
 }
 
-static int slide_pins(struct drive_pins *d, const char *n) {
+static int slide_pins(struct drive_pins* d, const char* n) {
   return hal_pin_float_newf(HAL_IN, &d->position_cmd, id, "twin.%s.position-cmd", n) ||
          hal_pin_float_newf(HAL_OUT, &d->position_fb, id, "twin.%s.position-fb", n);
 }
 
-static void write_drives(void *arg, long period) {
-  struct instance *t = arg;
-  struct twin_segment *s = t->plant.shim.segment;
+static void write_drives(void* arg, long period) {
+  struct instance* t = arg;
+  struct twin_segment* s = t->plant.shim.segment;
   uint32_t i;
   int k;
   if (!plant_may_ask(&t->plant, period)) {
     return;
   }
   for (i = 0; i < s->axes; ++i) {
-    struct twin_axis *axis = &s->axis[i];
-    const struct drive_pins *d = &t->drive[i];
+    struct twin_axis* axis = &s->axis[i];
+    const struct drive_pins* d = &t->drive[i];
     if (axis->kind != TWIN_AXIS_SERVO) {
       axis->command.position = shim_finite(*d->position_cmd);
       continue;
@@ -101,15 +101,15 @@ static void write_drives(void *arg, long period) {
   plant_ask(&t->plant);
 }
 
-static void read_drives(void *arg, long period) {
-  struct instance *t = arg;
-  const struct twin_segment *s = t->plant.shim.segment;
+static void read_drives(void* arg, long period) {
+  struct instance* t = arg;
+  const struct twin_segment* s = t->plant.shim.segment;
   const int is_there = plant_wait(&t->plant);
   uint32_t i;
   (void)period;
   for (i = 0; i < s->axes; ++i) {
-    const struct twin_axis *axis = &s->axis[i];
-    struct drive_pins *d = &t->drive[i];
+    const struct twin_axis* axis = &s->axis[i];
+    struct drive_pins* d = &t->drive[i];
     if (axis->kind != TWIN_AXIS_SERVO) {
       if (is_there) {
         *d->position_fb = axis->feedback.position;
@@ -132,13 +132,13 @@ static void read_drives(void *arg, long period) {
     *d->table_position = axis->feedback.table_position - axis->command.offset;
     *d->limit_pos = axis->feedback.limit_positive;
     *d->limit_neg = axis->feedback.limit_negative;
-    *d->home = axis->home_is_positive ? axis->feedback.limit_positive
-                                      : axis->feedback.limit_negative;
+    *d->home =
+        axis->home_is_positive ? axis->feedback.limit_positive : axis->feedback.limit_negative;
   }
 }
 
 int rtapi_app_main(void) {
-  const char *names[TWIN_SEGMENT_AXES];
+  const char* names[TWIN_SEGMENT_AXES];
   struct shim shim = {NULL, -1, "", "twin"};
   uint32_t i;
   int bad = plant_open(&shim, segment, TWIN_PLANT_SEGMENT, TWIN_USE_PLANT, PLANT_START);

@@ -7,8 +7,8 @@
  *   addf twinctl.write servo-thread    before those that write outputs
  *
  * An answer that does not come in time holds the outputs for hold-periods periods; then they are
- * 0 V and servo off, as they are at once when the program is gone, at an emergency stop, and as long
- * as no program drives. Nothing else than a program that begins anew switches on again.
+ * 0 V and servo off, as they are at once when the program is gone, at an emergency stop, and as
+ * long as no program drives. Nothing else than a program that begins anew switches on again.
  */
 #include "shim.h"
 
@@ -16,18 +16,19 @@ MODULE_AUTHOR("the twin authors");
 MODULE_DESCRIPTION("outputs of the controller twin as HAL pins");
 MODULE_LICENSE("GPL");
 
-static char *segment = "";
+static char* segment = "";
 RTAPI_MP_STRING(segment, "shared memory; /twin-controller-UID where it is not given");
-static char *axes = "xy";
+static char* axes = "xy";
 RTAPI_MP_STRING(axes, "letters of the axes");
 
 struct axis_pins {
-  hal_float_t *position_fb;
-  hal_s32_t *count;
+  hal_float_t* position_fb;
+  hal_s32_t* count;
   hal_bit_t *servo_ready, *fault, *limit_pos, *limit_neg, *index_enable;
   hal_float_t *volts, *velocity_cmd, *position_cmd;
   hal_bit_t *servo_on, *fault_reset;
-  void *unconnected[5]; /* where position_fb, count, servo_ready, volts, velocity_cmd point at first */
+  void* unconnected
+      [5]; /* where position_fb, count, servo_ready, volts, velocity_cmd point at first */
   int32_t last_count;
   int64_t counts; /* of a counter that wraps */
   int is_armed;
@@ -37,7 +38,7 @@ struct instance {
   struct shim shim;
   struct axis_pins axis[TWIN_SEGMENT_AXES];
   hal_bit_t *running, *heartbeat, *estop, *feed_hold;
-  hal_float_t *feed_override;
+  hal_float_t* feed_override;
   hal_u32_t *late, *wait_ns;
   hal_u32_t hold_periods, deadline_us;
   int64_t read_at;   /* [ns] */
@@ -47,25 +48,26 @@ struct instance {
   int is_off;        /* outputs are at 0 V and servo off */
 };
 
-static struct instance *it;
+static struct instance* it;
 static int id;
 
-static uint32_t load(const uint32_t *word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
-static void store(uint32_t *word, uint32_t value) { __atomic_store_n(word, value, __ATOMIC_RELEASE); }
+static uint32_t load(const uint32_t* word) { return __atomic_load_n(word, __ATOMIC_ACQUIRE); }
+static void store(uint32_t* word, uint32_t value) {
+  __atomic_store_n(word, value, __ATOMIC_RELEASE);
+}
 
-static uint32_t wired(const struct axis_pins *a) {
+static uint32_t wired(const struct axis_pins* a) {
   return (a->count != a->unconnected[1] ? TWIN_WIRED_COUNT : 0U) |
          (a->position_fb != a->unconnected[0] ? TWIN_WIRED_POSITION : 0U) |
          (a->servo_ready != a->unconnected[2] ? TWIN_WIRED_READY : 0U) |
-         (a->volts != a->unconnected[3] || a->velocity_cmd != a->unconnected[4]
-              ? TWIN_WIRED_OUTPUT
-              : 0U);
+         (a->volts != a->unconnected[3] || a->velocity_cmd != a->unconnected[4] ? TWIN_WIRED_OUTPUT
+                                                                                : 0U);
 }
 
-static void make_safe(struct instance *t) {
+static void make_safe(struct instance* t) {
   uint32_t i;
   for (i = 0; i < t->shim.segment->axes; ++i) {
-    struct axis_pins *a = &t->axis[i];
+    struct axis_pins* a = &t->axis[i];
     *a->volts = 0.0;
     *a->velocity_cmd = 0.0;
     *a->servo_on = 0;
@@ -75,25 +77,26 @@ static void make_safe(struct instance *t) {
   t->is_off = 1;
 }
 
-static void trip(struct instance *t, const char *why) {
-  struct twin_segment *s = t->shim.segment;
+static void trip(struct instance* t, const char* why) {
+  struct twin_segment* s = t->shim.segment;
   const double silent = (double)(shim_now() - t->answer_at) * 1e-6;
   make_safe(t);
   store(&s->has_switched_off, 1);
-  SHIM_ERROR("twinctl: 0 V and servo off, %.2f ms after the last answer: the controller, process %d, "
-             "%s\n",
-             silent, s->program, why);
+  SHIM_ERROR(
+      "twinctl: 0 V and servo off, %.2f ms after the last answer: the controller, process %d, "
+      "%s\n",
+      silent, s->program, why);
 }
 
-static void read_inputs(void *arg, long period) {
-  struct instance *t = arg;
-  struct twin_segment *s = t->shim.segment;
+static void read_inputs(void* arg, long period) {
+  struct instance* t = arg;
+  struct twin_segment* s = t->shim.segment;
   uint32_t i;
   s->period = (double)period * 1e-9;
   t->read_at = shim_now();
   __atomic_add_fetch(&s->periods_asked, 1, __ATOMIC_RELEASE);
   for (i = 0; i < s->axes; ++i) {
-    struct axis_pins *a = &t->axis[i];
+    struct axis_pins* a = &t->axis[i];
     const int32_t now = *a->count;
     a->counts += t->has_begun ? (int32_t)((uint32_t)now - (uint32_t)a->last_count) : 0;
     a->last_count = now;
@@ -103,8 +106,8 @@ static void read_inputs(void *arg, long period) {
     return; /* the memory is still the program's */
   }
   for (i = 0; i < s->axes; ++i) {
-    struct axis_pins *a = &t->axis[i];
-    struct twin_feedback *feedback = &s->axis[i].feedback;
+    struct axis_pins* a = &t->axis[i];
+    struct twin_feedback* feedback = &s->axis[i].feedback;
     feedback->counts = a->counts;
     feedback->position = *a->position_fb;
     feedback->ready = *a->servo_ready;
@@ -125,12 +128,12 @@ static void read_inputs(void *arg, long period) {
   shim_ask(s);
 }
 
-static void take_answer(struct instance *t) {
-  struct twin_segment *s = t->shim.segment;
+static void take_answer(struct instance* t) {
+  struct twin_segment* s = t->shim.segment;
   uint32_t i;
   for (i = 0; i < s->axes; ++i) {
-    struct axis_pins *a = &t->axis[i];
-    const struct twin_command *command = &s->axis[i].command;
+    struct axis_pins* a = &t->axis[i];
+    const struct twin_command* command = &s->axis[i].command;
     const double volts = shim_finite(command->volts);
     *a->volts = command->servo_on ? (volts > 10.0 ? 10.0 : volts < -10.0 ? -10.0 : volts) : 0.0;
     *a->velocity_cmd = *a->volts * s->axis[i].mm_per_s_per_volt;
@@ -145,9 +148,9 @@ static void take_answer(struct instance *t) {
   t->answer_at = shim_now();
 }
 
-static void write_outputs(void *arg, long period) {
-  struct instance *t = arg;
-  struct twin_segment *s = t->shim.segment;
+static void write_outputs(void* arg, long period) {
+  struct instance* t = arg;
+  struct twin_segment* s = t->shim.segment;
   const int64_t patience =
       t->deadline_us > 0 ? (int64_t)t->deadline_us * 1000LL : (int64_t)period * 7 / 10;
   if (!load(&s->is_running)) {
@@ -184,7 +187,7 @@ static void write_outputs(void *arg, long period) {
   }
 }
 
-static int axis_pins(struct axis_pins *a, const char *n) {
+static int axis_pins(struct axis_pins* a, const char* n) {
   int bad = hal_pin_float_newf(HAL_IN, &a->position_fb, id, "twinctl.%s.position-fb", n) ||
             hal_pin_s32_newf(HAL_IN, &a->count, id, "twinctl.%s.count", n) ||
             hal_pin_bit_newf(HAL_IN, &a->servo_ready, id, "twinctl.%s.servo-ready", n) ||
@@ -198,16 +201,16 @@ static int axis_pins(struct axis_pins *a, const char *n) {
             hal_pin_bit_newf(HAL_OUT, &a->servo_on, id, "twinctl.%s.servo-on", n) ||
             hal_pin_bit_newf(HAL_OUT, &a->fault_reset, id, "twinctl.%s.fault-reset", n);
   if (!bad) {
-    a->unconnected[0] = (void *)a->position_fb;
-    a->unconnected[1] = (void *)a->count;
-    a->unconnected[2] = (void *)a->servo_ready;
-    a->unconnected[3] = (void *)a->volts;
-    a->unconnected[4] = (void *)a->velocity_cmd;
+    a->unconnected[0] = (void*)a->position_fb;
+    a->unconnected[1] = (void*)a->count;
+    a->unconnected[2] = (void*)a->servo_ready;
+    a->unconnected[3] = (void*)a->volts;
+    a->unconnected[4] = (void*)a->velocity_cmd;
   }
   return bad;
 }
 
-static int all_pins(struct instance *t) {
+static int all_pins(struct instance* t) {
   uint32_t i;
   int bad = hal_pin_bit_newf(HAL_OUT, &t->running, id, "twinctl.running") ||
             hal_pin_bit_newf(HAL_OUT, &t->heartbeat, id, "twinctl.heartbeat") ||
@@ -230,7 +233,7 @@ static int all_pins(struct instance *t) {
 }
 
 /* Makes the memory, or takes over what another component has left. */
-static int make_segment(struct shim *shim) {
+static int make_segment(struct shim* shim) {
   char path[96];
   struct stat status;
   int result;
@@ -276,7 +279,7 @@ static int make_segment(struct shim *shim) {
   return 0;
 }
 
-static void drop_segment(struct shim *shim) {
+static void drop_segment(struct shim* shim) {
   char path[96];
   if (shim->segment != NULL && !shim_has_program(shim)) {
     snprintf(path, sizeof path, "/dev/shm%s", shim->name);
