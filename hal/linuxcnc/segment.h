@@ -28,9 +28,9 @@
  *   waits for answered == asked       <-------  writes its half, answered = asked, wakes
  *
  * The half of the shim is the drive commands where the program is the plant (TWIN_USE_PLANT), and
- * the feedback where the program is the controller (TWIN_USE_CONTROLLER). asked and answered are futex
- * words; they and magic are read and written as atomics, with acquire and release. All else belongs
- * to the side whose turn it is.
+ * the feedback where the program is the controller (TWIN_USE_CONTROLLER). asked and answered are
+ * futex words; they and magic are read and written as atomics, with acquire and release. All else
+ * belongs to the side whose turn it is.
  *
  * Each side keeps a lock of the open file description (F_OFD_SETLK) on one byte of the file as long
  * as it lives: TWIN_LOCK_SHIM or TWIN_LOCK_PROGRAM. So the other one can tell whether it is there,
@@ -64,10 +64,9 @@ enum { TWIN_WIRED_COUNT = 1, TWIN_WIRED_POSITION = 2, TWIN_WIRED_READY = 4, TWIN
 
 /* From the controller to the machine. */
 struct twin_command {
-  double volts;    /* V-REF [V] */
-  double position; /* set point; moves a TWIN_AXIS_POSITION, else for the record alone [mm] */
-  double
-      offset; /* of the encoder's position: less this it is in the coordinates of `position` [mm] */
+  double volts;      /* V-REF [V] */
+  double position;   /* set point; moves a TWIN_AXIS_POSITION, else for the record alone [mm] */
+  double offset;     /* between the encoder's coordinates and those of `position` [mm] */
   double load_force; /* on the slide from outside [N] */
   uint32_t servo_on;
   uint32_t fault_reset; /* a rising edge clears an alarm */
