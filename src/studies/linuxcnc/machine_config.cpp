@@ -110,7 +110,7 @@ std::string loop(const config::MachineFile& machine, std::size_t axis) {
       "P = {:.10g}\nI = 0\nD = {:.10g}\nFF0 = 0\nFF1 = {:.10g}\nFF2 = {:.10g}\n"
       "# Against the drive's offset [mm/s].\nBIAS = {:.10g}\n",
       1.0 / table.encoder.mm_per_count, 1.0 / per_volt, 10.0 * std::abs(per_volt), gains.kp,
-      gains.kd, gains.kf, gains.ka, gains.trim_V * per_volt);
+      gains.kd + gains.kv, gains.kf - gains.kv, gains.ka, gains.trim_V * per_volt);
 }
 
 /// Following errors that are allowed at rest and at the largest velocity [mm].

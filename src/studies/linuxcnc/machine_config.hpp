@@ -25,8 +25,9 @@ struct ConfigOptions {
 
 /// Text of an INI file of LinuxCNC for the table of a machine file: gains, scales, limits, homing.
 ///
-/// The position loop is LinuxCNC's own pid with P = Kp, D = Kd, FF1 = Kf, FF2 = Ka, an output in
-/// mm/s and a feedback in mm. Rapids have rapid_feedrate, which LinuxCNC also makes the largest
+/// The position loop is LinuxCNC's own pid with P = Kp, D = Kd + Kv, FF1 = Kf - Kv, FF2 = Ka, an
+/// output in mm/s and a feedback in mm: D works on the error, so that it feeds the velocity back and
+/// needs that much less of it fed forward. Rapids have rapid_feedrate, which LinuxCNC also makes the largest
 /// feedrate. Following error: MIN_FERROR and FERROR are the limits of [safety] at rest and at that
 /// feedrate. An axis homes on the switch of [home], then on the encoder's index.
 std::string ini_text(const config::MachineFile& machine, const ConfigOptions& options);
