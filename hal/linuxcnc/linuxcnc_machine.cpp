@@ -134,7 +134,7 @@ Expected<void> LinuxCncMachine::get_ready() {
   };
   const bool has_alarm = alarm() < kServoAxes;
   const auto pulse = static_cast<int>(std::ceil(kAlarmReset / memory.period));
-  store(memory.is_running, 1);
+  store(memory.is_running, has_alarm ? 1 : 0);
   for (int i = 0; has_alarm && i < 2 * pulse; ++i) {
     for (const std::size_t place : place_) {
       memory.axis[place].command.fault_reset = i < pulse ? 1 : 0;
@@ -144,6 +144,7 @@ Expected<void> LinuxCncMachine::get_ready() {
       break;
     }
   }
+  store(memory.is_running, 0);
   if (alarm() < kServoAxes) {
     return fail(ErrorCode::kMachine,
                 fmt::format("axis {}: the drive has an alarm after its reset (twinctl.{}.fault)",
@@ -152,7 +153,33 @@ Expected<void> LinuxCncMachine::get_ready() {
   if (memory.is_estop != 0) {
     return fail(ErrorCode::kMachine, "the emergency stop is on (twinctl.estop)");
   }
-  return {};
+  return wait_for_standstill();
+}
+
+/// An axis that still coasts has no position to make zero: its counts must stay, but for one of
+/// noise.
+Expected<void> LinuxCncMachine::wait_for_standstill() {
+  constexpr double kLook = 0.05;     // [s]
+  constexpr double kPatience = 3.0;  // [s]
+  const auto periods = static_cast<int>(std::ceil(kLook / shared_->memory().period));
+  std::size_t moving = kX;
+  for (double passed = 0.0; passed < kPatience; passed += kLook) {
+    const std::array before{counts(kX), counts(kY)};
+    for (int i = 0; i < periods; ++i) {
+      shared_->drop_question();
+      if (!wait_for_beat()) {
+        return fail(ErrorCode::kMachine, "LinuxCNC's servo thread stands");
+      }
+    }
+    moving = std::abs(counts(kX) - before[kX]) > 1 ? kX : kY;
+    if (std::abs(counts(moving) - before[moving]) <= 1) {
+      return {};
+    }
+  }
+  return fail(
+      ErrorCode::kMachine,
+      fmt::format("axis {} still moves {:g} s after 0 V and servo off; wait until it stands",
+                  kNames[moving], kPatience));
 }
 
 std::optional<Error> LinuxCncMachine::activate() {

@@ -69,6 +69,7 @@ class LinuxCncMachine final : public Machine {
   Expected<void> check_thread(double period);
   Expected<void> check_wires() const;
   Expected<void> get_ready();
+  Expected<void> wait_for_standstill();
   bool wait_for_beat() noexcept;
   std::int64_t counts(std::size_t axis) const noexcept;
   void fill(Inputs& inputs) noexcept;

@@ -178,6 +178,23 @@ TEST_F(MachineTest, RefusesAnAlarmThatStaysAndResetsOneThatGoes) {
   EXPECT_TRUE(checked(machine.activate()));
 }
 
+TEST_F(MachineTest, WaitsUntilTheAxesStand) {
+  std::atomic<int> left{100};  // periods that X still moves for
+  at_beat = [&](twin_segment& memory) {
+    if (left > 0) {
+      --left;
+      memory.axis[kX].feedback.counts += 3;
+    }
+  };
+  beat();
+  ASSERT_TRUE(checked(machine.configure(1e-3)));
+  ASSERT_TRUE(checked(machine.activate()));
+  EXPECT_EQ(left, 0);
+  EXPECT_EQ(shim.memory->is_running, 0U);
+  ASSERT_EQ(machine.read(inputs), Status::kOk);
+  EXPECT_EQ(inputs.counts[kX], 0);
+}
+
 TEST_F(MachineTest, EndsWhenTheComponentHasSwitchedOff) {
   start();
   ASSERT_EQ(machine.read(inputs), Status::kOk);
