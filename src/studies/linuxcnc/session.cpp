@@ -193,6 +193,8 @@ std::string last_words(const fs::path& log) {
     const std::size_t at = line.find("headless: ");
     if (at != std::string::npos) {
       told = line.substr(at + std::strlen("headless: "));
+    } else if (line.find("twin.hal:") != std::string::npos) {
+      told = line;  // halcmd, about a line of the HAL file
     } else if (line.find("sandbox: ") == 0) {
       told = line.substr(std::strlen("sandbox: "));
     }
@@ -252,7 +254,7 @@ Expected<SessionResult> run_linuxcnc(const SessionRequest& request) {
   }
   SessionResult result{plant.recordings(), *status, {}};
   if (*status != 0) {
-    for (const char* log : {"home/linuxcnc_print.txt", "log"}) {
+    for (const char* log : {"home/linuxcnc_debug.txt", "home/linuxcnc_print.txt", "log"}) {
       const std::string told = last_words(request.folder / log);
       result.told = told.empty() ? result.told : told;
     }
