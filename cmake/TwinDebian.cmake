@@ -64,6 +64,18 @@ Copyright: 2026 the twin authors
 License: Apache-2.0
  On Debian systems the full text of this licence is in
  /usr/share/common-licenses/Apache-2.0.
+
+Files: hal/linuxcnc/shim/*
+Copyright: 2026 the twin authors
+License: GPL-2+
+ Sources of components of LinuxCNC's HAL, and scripts that run LinuxCNC.
+ On Debian systems the full text of this licence is in
+ /usr/share/common-licenses/GPL-2.
+
+Files: hal/linuxcnc/segment.h
+Copyright: 2026 the twin authors
+License: MIT
+ The text of this licence is at the top of the file.
 ")
 set(program_package twin)
 set(devel_package libtwin-dev)

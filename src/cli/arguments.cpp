@@ -196,6 +196,7 @@ class ArgumentParser {
         app_, "tune",
         "Find servo gains and planner settings for least contour error, or least time within one");
     add_rig_commands();
+    add_linuxcnc_commands();
   }
 
   void add_rig_commands() {
@@ -216,6 +217,21 @@ class ArgumentParser {
     add<RigEmulateArguments>(
         rig, "emulate",
         "Run cards, drives and table as a process of its own on the wall clock, for --hal rig");
+  }
+
+  void add_linuxcnc_commands() {
+    group_ = "LinuxCNC";
+    add<PlantArguments>(app_, "plant",
+                        "Hold the simulated table in a process of its own for LinuxCNC to drive");
+    CLI::App& linuxcnc = *app_.add_subcommand(
+        "linuxcnc", "Configure LinuxCNC, and judge what it did: config, evaluate");
+    linuxcnc.group(group_);
+    linuxcnc.require_subcommand(1);
+    add<LinuxcncConfigArguments>(linuxcnc, "config",
+                                 "Write INI and HAL files of LinuxCNC for a machine file");
+    add<LinuxcncEvaluateArguments>(
+        linuxcnc, "evaluate",
+        "Hold a recording of twin plant against the program that LinuxCNC ran");
   }
 
   /// Whether the command line begins with this command, behind those above it.

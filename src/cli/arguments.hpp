@@ -125,6 +125,7 @@ struct CompareArguments {
   std::optional<double> feedrate;  ///< [mm/s]
   MachineArguments machine;
   std::string hal = "mujoco";  ///< "mujoco", "ideal"
+  std::string with;            ///< "linuxcnc": another controller; empty: our own planners
   ResultArguments results;
 };
 
@@ -240,6 +241,28 @@ struct RigEmulateArguments {
   std::optional<double> duration;  ///< [s]; without it until it is stopped
 };
 
+struct PlantArguments {
+  MachineArguments machine;
+  std::string program;  ///< that LinuxCNC runs; empty: recordings are not held against one
+  std::string name;     ///< of the shared memory; empty: the user's own
+  std::vector<std::string> faults;  ///< KIND:AXIS@SECONDS
+  std::optional<double> duration;   ///< of simulated time [s]; without it until it is stopped
+  std::filesystem::path folder;     ///< of the recordings; empty: renders/plant
+  bool has_recording = true;        ///< without --no-trace
+};
+
+struct LinuxcncConfigArguments {
+  MachineArguments machine;
+  std::filesystem::path folder;  ///< empty: renders/linuxcnc
+};
+
+struct LinuxcncEvaluateArguments {
+  std::filesystem::path folder;  ///< of a recording
+  std::string program;           ///< that LinuxCNC ran
+  MachineArguments machine;
+  bool has_plots = true;  ///< without --no-plots
+};
+
 /// --help or --version: the text that is asked for.
 struct TextArguments {
   std::string text;
@@ -251,7 +274,8 @@ using Arguments =
                  ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
                  CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
                  SweepArguments, TuneArguments, RigProbeArguments, RigMonitorArguments,
-                 RigCheckArguments, RigJogArguments, RigHomeArguments, RigEmulateArguments>;
+                 RigCheckArguments, RigJogArguments, RigHomeArguments, RigEmulateArguments,
+                 PlantArguments, LinuxcncConfigArguments, LinuxcncEvaluateArguments>;
 
 /// Reads a command line.
 ///

@@ -36,6 +36,9 @@ Expected<void> execute(const RigCheckArguments& arguments, const Environment& en
 Expected<void> execute(const RigJogArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigHomeArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigEmulateArguments& arguments, const Environment& environment);
+Expected<void> execute(const PlantArguments& arguments, const Environment& environment);
+Expected<void> execute(const LinuxcncConfigArguments& arguments, const Environment& environment);
+Expected<void> execute(const LinuxcncEvaluateArguments& arguments, const Environment& environment);
 
 /// What is wrong with the name of a dialect of `twin convert --to`; empty for a sound one.
 std::string dialect_error(const std::string& name);

@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "config/find_file.hpp"
 #include "core/atomic_file.hpp"
+#include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
@@ -106,9 +107,39 @@ std::string shared_name(const RigArguments& arguments) {
   return arguments.name.empty() ? rig::boards::default_shared_name() : arguments.name;
 }
 
-Expected<std::unique_ptr<rig::RigMachine>> open_rig(const RigArguments& arguments,
-                                                    const config::MachineFile& machine,
-                                                    const std::string& purpose) {
+std::unique_ptr<hal::Machine> make_linuxcnc_machine(const RigArguments& arguments,
+                                                    const config::MachineFile& machine) {
+  const hal::MachineInfo info = rig::assemble::rig_info(machine.rig, machine.table);
+  return std::make_unique<hal::linuxcnc::LinuxCncMachine>(
+      hal::linuxcnc::Scales{info.mm_per_count, info.mm_per_s_per_volt}, arguments.name);
+}
+
+namespace {
+
+/// The machine behind LinuxCNC's HAL, which takes no faults and needs no guard: its component is one.
+Expected<std::unique_ptr<hal::Machine>> open_linuxcnc(const RigArguments& arguments,
+                                                      const config::MachineFile& machine,
+                                                      const std::string& purpose) {
+  if (!arguments.faults.empty() || !arguments.log.empty()) {
+    return fail(ErrorCode::kUsage,
+                "--fault and --rig-log are for --rig emulated; behind LinuxCNC twin plant takes "
+                "--fault by itself");
+  }
+  auto made = make_linuxcnc_machine(arguments, machine);
+  const auto consent =
+      arguments.is_known_to_move ? session::Consent::kGiven : session::Consent::kNotAsked;
+  TWIN_CHECK(confirm_motion(made->info(), consent, purpose));
+  return made;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<hal::Machine>> open_rig(const RigArguments& arguments,
+                                                 const config::MachineFile& machine,
+                                                 const std::string& purpose) {
+  if (arguments.which == kLinuxCnc) {
+    return open_linuxcnc(arguments, machine, purpose);
+  }
   TWIN_TRY(const RigKind kind, find_rig(arguments, machine));
   if (kind != RigKind::kEmulated && (!arguments.faults.empty() || !arguments.log.empty())) {
     return fail(ErrorCode::kUsage,
@@ -190,6 +221,9 @@ session::MakeMachine machine_of(const HalArguments& arguments) {
                      const std::string& purpose) -> Expected<std::unique_ptr<hal::Machine>> {
     if (arguments.name == "rig") {
       return open_rig(arguments.rig, machine, purpose);
+    }
+    if (arguments.name == kLinuxCnc) {
+      return open_linuxcnc(arguments.rig, machine, purpose);
     }
     TWIN_CHECK(check_rig_is_meant(arguments));
     return session::make_simulated_machine(arguments.name, machine);

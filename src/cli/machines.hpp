@@ -48,9 +48,16 @@ std::string shared_name(const RigArguments& arguments);
 /// The rig of --rig put together, and confirmed by the user if it is real.
 ///
 /// @param purpose  what it is about to do, as in "run dolphin.nc"
-Expected<std::unique_ptr<hal::rig::RigMachine>> open_rig(const RigArguments& arguments,
-                                                         const config::MachineFile& machine,
-                                                         const std::string& purpose);
+Expected<std::unique_ptr<hal::Machine>> open_rig(const RigArguments& arguments,
+                                                 const config::MachineFile& machine,
+                                                 const std::string& purpose);
+
+/// Name of the rig that is a machine behind LinuxCNC's HAL, for --rig, and for --hal as well.
+inline constexpr const char* kLinuxCnc = "linuxcnc";
+
+/// The machine behind LinuxCNC's HAL, unconfigured.
+std::unique_ptr<hal::Machine> make_linuxcnc_machine(const RigArguments& arguments,
+                                                    const config::MachineFile& machine);
 
 /// A rig that is only looked at.
 struct RigToLookAt {

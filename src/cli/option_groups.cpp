@@ -116,14 +116,19 @@ void add_faults(CLI::App& command, std::vector<std::string>& faults) {
 
 void add_rig(CLI::App& command, RigArguments& rig) {
   command
-      .add_option("--rig", rig.which,
-                  "Which rig: cards are the real ones, process is a running `twin rig emulate`, "
-                  "emulated is in this process and in simulated time, auto is cards or process")
-      ->check(CLI::IsMember({"auto", "cards", "process", "emulated"}))
+      .add_option(
+          "--rig", rig.which,
+          "Which rig: cards are the real ones, process is a running `twin rig emulate`, "
+          "emulated is in this process and in simulated time, linuxcnc is what LinuxCNC's HAL "
+          "drives, auto is cards or process")
+      ->check(CLI::IsMember({"auto", "cards", "process", "emulated", "linuxcnc"}))
       ->type_name("NAME")
       ->capture_default_str();
   command
-      .add_option("--rig-name", rig.name, "Shared memory of the emulator's process [/twin-rig-UID]")
+      .add_option(
+          "--rig-name", rig.name,
+          "Shared memory of the emulator's process or of LinuxCNC's component [/twin-rig-UID, "
+          "/twin-controller-UID]")
       ->type_name("/NAME");
 }
 
@@ -142,11 +147,11 @@ void add_hal(CLI::App& command, HalArguments& hal) {
   command
       .add_option("--hal", hal.name,
                   "Machine: mujoco is the simulated table, ideal has position = set point, rig is "
-                  "the real one or its emulation")
-      ->check(CLI::IsMember({"mujoco", "ideal", "rig"}))
+                  "the real one or its emulation, linuxcnc is what LinuxCNC's HAL drives")
+      ->check(CLI::IsMember({"mujoco", "ideal", "rig", "linuxcnc"}))
       ->type_name("NAME")
       ->capture_default_str();
-  begin_group(command, "Rig, with --hal rig");
+  begin_group(command, "Rig, with --hal rig or linuxcnc");
   add_moving_rig(command, hal.rig);
 }
 

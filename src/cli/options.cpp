@@ -123,7 +123,8 @@ void add_options(CLI::App& command, CompareArguments& compare) {
       "Examples:\n"
       "  twin compare dolphin.nc\n"
       "  twin compare --set servo.x.kp=200 --set servo.x.kp=300 dolphin.nc\n"
-      "  twin compare renders/soft renders/stiff");
+      "  twin compare renders/soft renders/stiff\n"
+      "  twin compare --with linuxcnc dolphin.nc gear.nc");
   command
       .add_option("program", compare.programs,
                   "NC programs: files, or names of some in nc_programs; more than one are planned "
@@ -134,6 +135,13 @@ void add_options(CLI::App& command, CompareArguments& compare) {
   add_machine(command, compare.machine);
   add_reading(command, compare.machine);
   add_simulated_hal(command, compare.hal);
+  command
+      .add_option(
+          "--with", compare.with,
+          "Another controller on the same table: linuxcnc runs LinuxCNC, headless, with its "
+          "own pid at the gains of the machine file")
+      ->check(CLI::IsMember({"linuxcnc"}))
+      ->type_name("NAME");
   add_results(command, compare.results, "PROGRAM_compare");
   add_trace(command, compare.results);
 }

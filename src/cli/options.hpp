@@ -28,5 +28,8 @@ void add_options(CLI::App& command, RigCheckArguments& arguments);
 void add_options(CLI::App& command, RigJogArguments& arguments);
 void add_options(CLI::App& command, RigHomeArguments& arguments);
 void add_options(CLI::App& command, RigEmulateArguments& arguments);
+void add_options(CLI::App& command, PlantArguments& arguments);
+void add_options(CLI::App& command, LinuxcncConfigArguments& arguments);
+void add_options(CLI::App& command, LinuxcncEvaluateArguments& arguments);
 
 }  // namespace twin::cli

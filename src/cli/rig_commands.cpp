@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -106,10 +107,50 @@ void print_axis(char name, const rig::AxisWiring& wiring, const rig::RigView& vi
             view.vref[axis] ? fmt::format("{:.4f} V", *view.vref[axis]) : "not read back");
 }
 
+/// "  x        0 counts     0.0000 mm   servo ready no, ALM no alarm, P-OT free, N-OT free".
+std::string pin_text(std::size_t axis, const hal::Inputs& inputs, const hal::MachineInfo& info) {
+  return fmt::format(
+      "  {} {:>9} counts {:>10.4f} mm  servo ready {}, {}, P-OT {}, N-OT {}", "xy"[axis],
+      inputs.counts[axis], static_cast<double>(inputs.counts[axis]) * info.mm_per_count[axis],
+      inputs.servo_ready[axis] ? "yes" : "no", inputs.alarm[axis] ? "ALARM" : "no alarm",
+      inputs.limit_positive[axis] ? "REACHED" : "free",
+      inputs.limit_negative[axis] ? "REACHED" : "free");
+}
+
+/// What LinuxCNC's HAL shows of its machine, every `kInterval` of it until the end; nothing moves.
+///
+/// @param duration  [s]; 0: once
+Expected<void> show_linuxcnc(const RigArguments& arguments, const config::MachineFile& file,
+                             std::optional<double> duration, const std::atomic<bool>& stop) {
+  const auto machine = make_linuxcnc_machine(arguments, file);
+  TWIN_CHECK(checked(machine->configure(file.period)));
+  const auto periods = std::max(1L, std::lround(0.1 / file.period));
+  for (long i = 0; !stop.load(); ++i) {
+    const double t = static_cast<double>(i) * file.period;
+    if (duration && i > 0 && t > *duration) {
+      break;
+    }
+    hal::Inputs inputs;
+    if (machine->read(inputs) != hal::Status::kOk) {
+      return fail(ErrorCode::kMachine, machine->last_error());
+    }
+    if (i % periods == 0) {
+      print_out("{:8.1f} s{}{}\n", t, pin_text(hal::kX, inputs, machine->info()),
+                pin_text(hal::kY, inputs, machine->info()));
+      TWIN_CHECK(finish_output());
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-Expected<void> execute(const RigProbeArguments& arguments, const Environment&) {
+Expected<void> execute(const RigProbeArguments& arguments, const Environment& environment) {
   TWIN_TRY(auto machine, read_machine(arguments.machine, Verbosity::kNormal));
+  if (arguments.rig.which == kLinuxCnc) {
+    print_out("rig: what LinuxCNC's HAL drives\n");
+    return show_linuxcnc(arguments.rig, machine, 0.0, environment.stop);
+  }
   TWIN_TRY(const RigToLookAt rig_seen, open_to_look(arguments.rig, std::move(machine)));
   const rig::RigSettings& settings = rig_seen.settings;
   print_out("rig: {}\n", describe(rig_seen.kind));
@@ -137,6 +178,10 @@ Expected<void> execute(const RigProbeArguments& arguments, const Environment&) {
 
 Expected<void> execute(const RigMonitorArguments& arguments, const Environment& environment) {
   TWIN_TRY(auto machine, read_machine(arguments.machine, Verbosity::kNormal));
+  if (arguments.rig.which == kLinuxCnc) {
+    print_out("rig: what LinuxCNC's HAL drives; Ctrl-C ends this\n");
+    return show_linuxcnc(arguments.rig, machine, arguments.duration, environment.stop);
+  }
   TWIN_TRY(const RigToLookAt rig_seen, open_to_look(arguments.rig, std::move(machine)));
   const rig::assemble::RigPorts& ports = rig_seen.ports;
   const hal::MachineInfo info =
@@ -171,9 +216,9 @@ namespace {
 
 using studies::commissioning::AxisWiringReport;
 
-/// Sleeps to the next period on the wall clock; nothing in simulated time.
+/// Sleeps to the next period on the wall clock; nothing in simulated time, or where reading waits.
 studies::commissioning::WaitForPeriod make_wait(const hal::MachineInfo& info, double period) {
-  if (!info.keeps_own_time) {
+  if (!info.keeps_own_time || info.gives_beat) {
     return [] {};
   }
   const auto clock = std::make_shared<runtime::MonotonicClock>();

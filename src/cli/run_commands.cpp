@@ -3,16 +3,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
+#include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "live/live_view.hpp"
 #include "live/publisher.hpp"
 #include "operator/operator_station.hpp"
@@ -60,6 +63,27 @@ std::string summary_of(const std::vector<gcode::Note>& notes, const std::string&
                      notes.size() == 1 ? "it" : "them");
 }
 
+/// Hands what LinuxCNC's pins ask for to the panel, whenever it changes; nothing for other machines.
+std::jthread watch_feed_pins(const hal::Machine* machine, runtime::OperatorPanel& panel) {
+  const auto* const behind = dynamic_cast<const hal::linuxcnc::LinuxCncMachine*>(machine);
+  if (behind == nullptr) {
+    return {};
+  }
+  return std::jthread([behind, &panel](const std::stop_token& stop) {
+    hal::linuxcnc::FeedWish last;
+    for (; !stop.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
+      const hal::linuxcnc::FeedWish wish = behind->feed_wish();
+      if (wish.is_held != last.is_held) {
+        panel.hold(wish.is_held);
+      }
+      if (wish.percent != last.percent) {
+        panel.set_override(wish.percent);
+      }
+      last = wish;
+    }
+  });
+}
+
 /// Runs with a progress bar, and on the wall clock with what an operator needs.
 ///
 /// @param control  socket for an operator; empty: none
@@ -92,6 +116,7 @@ Expected<runtime::RunResult> run_with_operator(session::Session& session, Verbos
       print_note(summary_of(notes, session.program().string()));
     };
   }
+  const std::jthread pins = watch_feed_pins(session.hal(), panel);
   return session.run(attendance);
 }
 

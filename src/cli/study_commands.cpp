@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "cli/compare_linuxcnc.hpp"
 #include "cli/compare_runs.hpp"
 #include "cli/machines.hpp"
 #include "config/find_file.hpp"
@@ -113,6 +114,9 @@ Expected<void> compare_planners(const ResultArguments& results, studies::compare
 }  // namespace
 
 Expected<void> execute(const CompareArguments& arguments, const Environment& environment) {
+  if (!arguments.with.empty()) {
+    return compare_with_linuxcnc(arguments, environment);
+  }
   if (are_folders(arguments.programs)) {
     return compare_folders(arguments, environment);
   }

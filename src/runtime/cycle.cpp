@@ -54,6 +54,12 @@ hal::Status Cycle::read(double interval) noexcept {
   return machine_ == nullptr ? hal::Status::kOk : machine_->read(inputs_);
 }
 
+hal::Status Cycle::read_at_beat() noexcept {
+  const hal::Status status = machine_->read(inputs_);
+  interval_ = inputs_.periods * period_;
+  return status;
+}
+
 motion::Status Cycle::prepare() noexcept {
   const auto start = WallClock::now();
   const motion::SetPoint last = set_point_;

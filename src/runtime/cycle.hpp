@@ -48,6 +48,9 @@ class Cycle {
   /// Reads the inputs of the machine. Real-time safe.
   /// @param interval  time since the last read [s]
   hal::Status read(double interval) noexcept;
+  /// The same for a machine that gives the beat: waits for it, and takes its count of periods as the
+  /// time that has passed. Real-time safe.
+  hal::Status read_at_beat() noexcept;
   /// Computes the next set point. If the result is not kMoving, the last set point stays in force.
   /// Real-time safe.
   motion::Status prepare() noexcept;

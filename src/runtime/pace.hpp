@@ -79,7 +79,7 @@ class LockstepPace final : public Pace {
 /// nothing else.
 ///
 /// A period begins when the clock says so, by reading the machine.
-class WallClockPace final : public Pace {
+class WallClockPace : public Pace {
  public:
   struct Options {
     double period = 0.001;      ///< [s]
@@ -101,12 +101,49 @@ class WallClockPace final : public Pace {
   std::int64_t late_periods() const noexcept override { return pacer_.late_periods(); }
   double worst_latency() const noexcept override { return pacer_.worst_latency(); }
 
+ protected:
+  /// Takes the wake-up of a period that has begun.
+  void begin(const WakeUp& wake_up);
+  Pacer& pacer() noexcept { return pacer_; }
+
  private:
   const PlanSupply& supply_;
   Pacer pacer_;
   std::function<void(std::int64_t)> before_period_;
   WakeUp wake_up_{};
   std::int64_t periods_ = 0;  // begun
+};
+
+/// The clock of a machine that gives the beat: as many periods as it has counted, and the time since
+/// the last one.
+class BeatClock final : public Clock {
+ public:
+  /// @param period  [s]
+  explicit BeatClock(double period) noexcept;
+
+  /// Counts periods that have begun by now. Real-time safe.
+  void beat(int periods) noexcept;
+  std::int64_t now() noexcept override;
+  void sleep_until(std::int64_t /*t*/) noexcept override {}  // read() has waited
+
+ private:
+  std::int64_t period_;      // [ns]
+  std::int64_t passed_ = 0;  // periods, as a time [ns]
+  std::int64_t begun_ = 0;   // the last one, of the wall clock; 0: none [ns]
+};
+
+/// The periods of a machine that gives the beat: a period begins when read() returns. All else is as
+/// on the wall clock; periods that the controller was too late for are missed.
+class BeatPace final : public WallClockPace {
+ public:
+  /// @param clock  outlives the pace
+  BeatPace(const PlanSupply& supply, BeatClock& clock, const Options& options)
+      : WallClockPace(supply, clock, options), clock_(clock) {}
+
+  hal::Status begin_period(Cycle& cycle) override;
+
+ private:
+  BeatClock& clock_;
 };
 
 }  // namespace twin::runtime

@@ -34,12 +34,16 @@ WallClockPlanning::WallClockPlanning(const RunRequest& request, ProgramPlanner& 
                                      std::atomic<bool>& stop)
     : request_(request),
       stop_(stop),
+      beat_(request.machine.period),
       segments_(queue_size(request), queue_size(request) + 2),
       loop_(planner, segments_, link_, most_waiting(request)) {
   loop_.before_segment = request.hooks.before_segment;
 }
 
 std::unique_ptr<Pace> WallClockPlanning::make_pace() {
+  if (request_.hal != nullptr && request_.hal->info().gives_beat) {
+    return std::make_unique<BeatPace>(segments_, beat_, wall_clock_options(request_));
+  }
   return std::make_unique<WallClockPace>(segments_, clock_, wall_clock_options(request_));
 }
 

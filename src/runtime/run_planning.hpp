@@ -74,6 +74,7 @@ class WallClockPlanning final : public RunPlanning {
   const RunRequest& request_;
   std::atomic<bool>& stop_;
   MonotonicClock clock_;
+  BeatClock beat_;
   SegmentQueue segments_;
   ReplanLink link_;
   PlanningLoop loop_;

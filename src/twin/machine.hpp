@@ -38,6 +38,9 @@ struct Inputs {
   /// True: the encoder has passed its index mark since the last read(). Always false for an encoder
   /// without an index.
   std::array<bool, kServoAxes> index{};
+  /// Periods that have passed since the last read() of a machine that gives the beat: 1, or more
+  /// where the controller was late. Always 1 for another machine.
+  int periods = 1;
 };
 
 /// Where the table really is. Only a simulated machine knows this; a real one has its encoders.
@@ -73,6 +76,9 @@ struct MachineInfo {
   bool has_truth = true;        ///< whether truth() returns the true position
   bool has_forces = false;      ///< whether truth() returns torques and friction
   bool keeps_own_time = false;  ///< true: time passes on the wall clock, not inside read()
+  /// True: the machine has periods of its own and read() waits for the begin of the next one, so
+  /// that the controller follows its clock. Goes with keeps_own_time.
+  bool gives_beat = false;
   /// True: the machine stands exactly at the reference that was last handed to write(). Its
   /// measured position is then truth() after write(), and the monitors do not watch it.
   bool follows_reference = false;
