@@ -22,6 +22,11 @@ void add_options(CLI::App& command, RunArguments& run) {
   add_reading(command, run.machine);
   add_curves(command, run.machine);
   add_hal(command, run.hal);
+  begin_group(command, "Correction");
+  add_correction(command, run.correction);
+  add_tolerance(command, "--tolerance-um",
+                "Say before the run with what probability the contour error stays within this",
+                [&run](double tolerance) { run.tolerance = tolerance; });
   begin_group(command, "While it runs");
   add_overrides(command, run.overrides);
   command.add_flag("--realtime", run.is_on_wall_clock,
@@ -197,6 +202,39 @@ void add_options(CLI::App& command, IdentifyArguments& identify) {
       ->check(CLI::Range(0, 10000000))
       ->type_name("N");
   add_quiet(command, identify.verbosity, "Print errors and notes only");
+}
+
+void add_options(CLI::App& command, CompensateArguments& compensate) {
+  command.footer(
+      "Examples:\n"
+      "  twin compensate dolphin.nc --out dolphin.csv\n"
+      "  twin run dolphin.nc --compensate dolphin.csv");
+  add_program(command, compensate.program);
+  add_machine(command, compensate.machine);
+  add_reading(command, compensate.machine);
+  command.add_option("--out", compensate.file, "File to write [renders/PROGRAM/correction.csv]")
+      ->type_name("FILE.csv");
+  add_quiet(command, compensate.verbosity);
+}
+
+void add_options(CLI::App& command, FastestArguments& fastest) {
+  command.footer(
+      "Examples:\n"
+      "  twin fastest dolphin.nc --tolerance-um 25\n"
+      "  twin run renders/dolphin/fastest.nc");
+  command
+      .add_option("program", fastest.program,
+                  "NC program: a file, or the name of one in nc_programs")
+      ->required()
+      ->type_name("PROGRAM.nc");
+  add_tolerance(command, "--tolerance-um", "Contour error that 95 % of possible tables keep",
+                [&fastest](double tolerance) { fastest.tolerance = tolerance; })
+      ->required();
+  add_machine(command, fastest.machine);
+  add_reading(command, fastest.machine);
+  command.add_option("--out", fastest.file, "Program to write [renders/PROGRAM/fastest.nc]")
+      ->type_name("FILE.nc");
+  add_quiet(command, fastest.verbosity);
 }
 
 void add_options(CLI::App& command, ConvertArguments& convert) {
