@@ -31,6 +31,7 @@ Expected<void> execute(const FastestArguments& arguments, const Environment& env
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment);
 Expected<void> execute(const BatchArguments& arguments, const Environment& environment);
 Expected<void> execute(const SweepArguments& arguments, const Environment& environment);
+Expected<void> execute(const TuneArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigProbeArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigMonitorArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigCheckArguments& arguments, const Environment& environment);

@@ -156,6 +156,10 @@ void SegmentWriter::arc(const Arc& arc, double begin, double end) {
   exact(std::move(segment), begin, end);
 }
 
+void SegmentWriter::curve(FittedCurve&& curve, double begin, double end) {
+  exact(make_curve_segment(std::move(curve)), begin, end);
+}
+
 void SegmentWriter::whole(Segment&& segment) {
   flush();
   emit(std::move(segment));

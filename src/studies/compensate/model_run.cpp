@@ -5,9 +5,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/parallel_for.hpp"
 #include "motion/correction/correction_follower.hpp"
 #include "studies/identify/axis_model.hpp"
-#include "studies/identify/parallel_for.hpp"
 
 namespace twin::studies::compensate {
 namespace {
@@ -129,7 +129,7 @@ ModelRun mean_run(const config::MachineFile& machine, std::span<const motion::Se
   for (std::size_t axis = 0; axis < 2; ++axis) {
     references[axis] = corrected_references(points, offsets, axis, machine.period);
   }
-  identify::parallel_for(2 * runs, [&](std::size_t job) {
+  parallel_for(2 * runs, [&](std::size_t job) {
     const std::size_t axis = job % 2;
     const Phases phases = even_phases(job / 2, runs, shift);
     const double first = offsets.empty() ? 0.0 : offsets.front()[static_cast<Eigen::Index>(axis)];

@@ -7,9 +7,9 @@
 #include <limits>
 #include <mutex>
 
+#include "core/parallel_for.hpp"
 #include "core/units.hpp"
 #include "studies/compensate/model_run.hpp"
-#include "studies/identify/parallel_for.hpp"
 
 namespace twin::studies::predict {
 namespace {
@@ -33,7 +33,7 @@ Expected<PossibleErrors> possible_errors(const compensate::ContourPath& path,
   std::mutex mutex;  // of progress
   std::size_t done = 0;
   const auto is_stopped = [&] { return options.stop != nullptr && options.stop->load(); };
-  identify::parallel_for(options.machines, [&](std::size_t i) {
+  parallel_for(options.machines, [&](std::size_t i) {
     if (is_stopped()) {
       return;
     }
