@@ -146,6 +146,7 @@ inline AxisParams default_y_axis() {
 struct TableParams {
   /// MJCF file; xy_table_compliant.xml for screws that give.
   std::string model = "mjcf/xy_table.xml";
+  bool is_identified = false;      ///< the numbers were found on the machine they stand for
   double physics_step = 1e-4;      ///< at most; a whole number of steps makes a period [s]
   double pen_bandwidth_Hz = 20.0;  ///< of the Z slide that follows its reference [Hz]
   std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};

@@ -184,6 +184,14 @@ class ArgumentParser {
     add<IdentifyArguments>(
         app_, "identify",
         "Fit the machine's parameters to recorded traces, and say which are shown");
+    add<CompensateArguments>(
+        app_, "compensate",
+        "Shift a program's set points so that the identified table meets the path: a file for "
+        "run --compensate");
+    add<FastestArguments>(
+        app_, "fastest",
+        "The largest feedrates at which a program keeps a tolerance, whatever the table may be "
+        "like: of the program, and of each stretch of it");
     add<ConvertArguments>(
         app_, "convert",
         "Write a program as NURBS blocks of a control; runs of short blocks are fitted");

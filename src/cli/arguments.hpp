@@ -71,15 +71,25 @@ struct VideoArguments {
 
 // The commands.
 
+/// --compensate and --learn.
+struct CorrectionArguments {
+  bool is_wanted = false;            ///< --compensate
+  std::filesystem::path file;        ///< its FILE; empty: the correction is made now
+  std::filesystem::path learning;    ///< --learn, a folder; empty: nothing is learnt
+  std::vector<std::string> plant{};  ///< --set-plant: of the simulated table alone
+};
+
 struct RunArguments {
   ProgramArguments program;
   MachineArguments machine;
   HalArguments hal;
-  std::string overrides;          ///< seconds:percent, ...
-  bool is_on_wall_clock = false;  ///< --realtime
-  std::filesystem::path control;  ///< socket for an operator; empty: none
-  std::optional<int> view;        ///< --view, its port; 0: any
-  std::string publish;            ///< --publish, an address; empty: none
+  CorrectionArguments correction;
+  std::optional<double> tolerance;  ///< --tolerance-um, of the contour error [mm]
+  std::string overrides;            ///< seconds:percent, ...
+  bool is_on_wall_clock = false;    ///< --realtime
+  std::filesystem::path control;    ///< socket for an operator; empty: none
+  std::optional<int> view;          ///< --view, its port; 0: any
+  std::string publish;              ///< --publish, an address; empty: none
   ResultArguments results;
   VideoArguments video;
 };
@@ -155,6 +165,21 @@ struct IdentifyArguments {
   std::uint32_t seed = 1;                  ///< of the global search
   std::optional<std::size_t> evaluations;  ///< simulations of the global search
   bool has_plots = true;                   ///< of the predictions
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct CompensateArguments {
+  ProgramArguments program;
+  MachineArguments machine;
+  std::filesystem::path file;  ///< to write; empty: renders/PROGRAM/correction.csv
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct FastestArguments {
+  std::string program;
+  MachineArguments machine;
+  double tolerance = 0.0;      ///< --tolerance-um, always given [mm]
+  std::filesystem::path file;  ///< program to write; empty: renders/PROGRAM/fastest.nc
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -272,10 +297,11 @@ struct TextArguments {
 using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
                  ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
-                 CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
-                 SweepArguments, TuneArguments, RigProbeArguments, RigMonitorArguments,
-                 RigCheckArguments, RigJogArguments, RigHomeArguments, RigEmulateArguments,
-                 PlantArguments, LinuxcncConfigArguments, LinuxcncEvaluateArguments>;
+                 CircleArguments, IdentifyArguments, CompensateArguments, FastestArguments,
+                 ConvertArguments, BatchArguments, SweepArguments, TuneArguments, RigProbeArguments,
+                 RigMonitorArguments, RigCheckArguments, RigJogArguments, RigHomeArguments,
+                 RigEmulateArguments, PlantArguments, LinuxcncConfigArguments,
+                 LinuxcncEvaluateArguments>;
 
 /// Reads a command line.
 ///

@@ -26,6 +26,8 @@ Expected<void> execute(const CompareArguments& arguments, const Environment& env
 Expected<void> execute(const ReproduceArguments& arguments, const Environment& environment);
 Expected<void> execute(const CircleArguments& arguments, const Environment& environment);
 Expected<void> execute(const IdentifyArguments& arguments, const Environment& environment);
+Expected<void> execute(const CompensateArguments& arguments, const Environment& environment);
+Expected<void> execute(const FastestArguments& arguments, const Environment& environment);
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment);
 Expected<void> execute(const BatchArguments& arguments, const Environment& environment);
 Expected<void> execute(const SweepArguments& arguments, const Environment& environment);

@@ -101,6 +101,7 @@ Expected<void> identify_tables(const IdentifyArguments& arguments,
   if (!fit) {
     return tl::unexpected(fit.error());
   }
+  fit->machine.table.is_identified = true;
   TWIN_CHECK(write_whole_file(file, config::to_toml(fit->machine)));
   if (arguments.verbosity == Verbosity::kNormal) {
     print_out("{}machine file: {}\n", studies::reproduce::to_table(*fit), file.string());

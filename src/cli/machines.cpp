@@ -216,9 +216,12 @@ Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Ve
   return machine;
 }
 
-session::MakeMachine machine_of(const HalArguments& arguments) {
-  return [arguments](const config::MachineFile& machine,
-                     const std::string& purpose) -> Expected<std::unique_ptr<hal::Machine>> {
+session::MakeMachine machine_of(const HalArguments& arguments,
+                                const std::vector<std::string>& plant) {
+  return [arguments, plant](const config::MachineFile& given,
+                            const std::string& purpose) -> Expected<std::unique_ptr<hal::Machine>> {
+    config::MachineFile machine = given;
+    TWIN_CHECK(config::apply_overrides(machine, plant));
     if (arguments.name == "rig") {
       return open_rig(arguments.rig, machine, purpose);
     }

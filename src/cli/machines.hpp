@@ -32,7 +32,9 @@ Expected<gcode::ProgramText> read_program(const std::string& name, const Machine
 Expected<config::MachineFile> read_machine(const MachineArguments& arguments, Verbosity verbosity);
 
 /// What makes the machine of --hal. A real one is confirmed by the user first.
-session::MakeMachine machine_of(const HalArguments& arguments);
+/// @param plant  settings of the simulated or emulated table that the controller does not know
+session::MakeMachine machine_of(const HalArguments& arguments,
+                                const std::vector<std::string>& plant = {});
 
 /// The program of a trace, where it is still there and still the same: by its name, or by the path
 /// that the command line of the run had.

@@ -155,6 +155,40 @@ void add_hal(CLI::App& command, HalArguments& hal) {
   add_moving_rig(command, hal.rig);
 }
 
+void add_correction(CLI::App& command, CorrectionArguments& correction) {
+  const auto take = [&correction](const std::vector<std::string>& given) {
+    correction.is_wanted = true;
+    correction.file = given.empty() ? "" : given.front();
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--compensate", take,
+          "Shift the set points as FILE of twin compensate says; without FILE (behind PROGRAM) "
+          "make "
+          "the correction now")
+      ->expected(0, 1)
+      ->allow_extra_args(false)
+      ->type_name("FILE.csv");
+  command
+      .add_option("--learn", correction.learning,
+                  "Follow the correction in this folder, and make it better by what this run "
+                  "measures; the first run makes it by the model")
+      ->type_name("DIR");
+  add_list(command, "--set-plant", correction.plant,
+           "Change a setting of the simulated table alone: the controller and its model do not "
+           "know (repeatable)")
+      ->type_name("SECTION.KEY=VALUE");
+}
+
+CLI::Option* add_tolerance(CLI::App& command, const std::string& name, const std::string& text,
+                           const std::function<void(double)>& take) {
+  return command
+      .add_option_function<double>(
+          name, [take](double um) { take(units::mm_from_um(um)); }, text)
+      ->check(CLI::Range(1e-3, 1e5))
+      ->type_name("T");
+}
+
 void add_overrides(CLI::App& command, std::string& overrides) {
   command
       .add_option("--override", overrides,

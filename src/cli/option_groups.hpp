@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ void add_rig(CLI::App& command, RigArguments& rig);
 /// The rig that moves.
 void add_moving_rig(CLI::App& command, RigArguments& rig);
 void add_hal(CLI::App& command, HalArguments& hal);
+void add_correction(CLI::App& command, CorrectionArguments& correction);
+/// @param take  gets the tolerance [mm]
+CLI::Option* add_tolerance(CLI::App& command, const std::string& name, const std::string& text,
+                           const std::function<void(double)>& take);
 void add_overrides(CLI::App& command, std::string& overrides);
 void add_quiet(CLI::App& command, Verbosity& verbosity,
                const std::string& text = "Print errors only");

@@ -22,6 +22,11 @@ void add_options(CLI::App& command, RunArguments& run) {
   add_reading(command, run.machine);
   add_curves(command, run.machine);
   add_hal(command, run.hal);
+  begin_group(command, "Correction");
+  add_correction(command, run.correction);
+  add_tolerance(command, "--tolerance-um",
+                "Say before the run with what probability the contour error stays within this",
+                [&run](double tolerance) { run.tolerance = tolerance; });
   begin_group(command, "While it runs");
   add_overrides(command, run.overrides);
   command.add_flag("--realtime", run.is_on_wall_clock,

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/corrected_run.hpp"
 #include "cli/machines.hpp"
+#include "cli/predictions.hpp"
 #include "config/find_file.hpp"
 #include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "live/live_view.hpp"
@@ -232,12 +234,18 @@ Expected<void> execute(const RunArguments& arguments, const Environment& environ
            request_of(arguments.program, arguments.machine, arguments.overrides, arguments.results,
                       environment.stop));
   request.command = environment.command_line;
-  request.make_machine = machine_of(arguments.hal);
+  request.make_machine = machine_of(arguments.hal, arguments.correction.plant);
+  TWIN_TRY(CorrectedRun corrected,
+           CorrectedRun::prepare(arguments.correction, request, arguments.results.verbosity,
+                                 environment.stop));
+  TWIN_CHECK(
+      predict_errors(arguments.tolerance, arguments.results.verbosity, environment.stop, request));
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const Audience audience, invite(arguments, session));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
+  TWIN_CHECK(corrected.learn_from(result, environment.stop));
   TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, arguments.video);
 }

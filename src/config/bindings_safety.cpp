@@ -1,6 +1,6 @@
 #include "config/binding.hpp"
 
-// The settings of the monitors and of the wall clock.
+// The settings of monitors, correction, uncertainty and wall clock.
 namespace twin::config {
 namespace {
 
@@ -29,6 +29,33 @@ void add_safety(std::vector<Binding>& list, motion::SafetySettings& s) {
                   "from servo on to servo ready", 1e3});
 }
 
+void add_compensation(std::vector<Binding>& list, CompensationSettings& c) {
+  const char* section = "compensation";
+  list.push_back({section, "limit", "mm", &c.limit, 0.0, 1.0,
+                  "largest offset that a correction gives an axis"});
+  list.push_back(
+      {section, "path_tolerance", "mm", &c.path_tolerance, 1e-4, 10.0,
+       "corner error of the path of a corrected run, if planning.corner_error is larger"});
+  list.push_back({section, "reserve", "percent", &c.reserve, 0.0, 90.0,
+                  "of acceleration and jerk, kept from planning for the correction", 100.0});
+  list.push_back({section, "highest_frequency", "Hz", &c.highest_frequency, 1.0, 1e4,
+                  "above which nothing is corrected"});
+}
+
+void add_uncertainty(std::vector<Binding>& list, UncertaintySettings& u) {
+  const char* section = "uncertainty";
+  list.push_back({section, "inertia", "percent", &u.inertia, 0.0, 50.0,
+                  "standard deviation of moving masses that no identification shows", 100.0});
+  list.push_back(
+      {section, "friction", "percent", &u.friction, 0.0, 50.0, "the same of friction", 100.0});
+  list.push_back({section, "loop_gain", "percent", &u.loop_gain, 0.0, 50.0,
+                  "the same of gain and integral time of the velocity loop", 100.0});
+  list.push_back({section, "delay", "percent", &u.delay, 0.0, 50.0,
+                  "the same of current lag and output delay", 100.0});
+  list.push_back({section, "offset", "percent", &u.offset, 0.0, 50.0,
+                  "the same of the offset of V-REF", 100.0});
+}
+
 void add_realtime(std::vector<Binding>& list, RealtimeSettings& r) {
   const char* section = "realtime";
   list.push_back({section, "priority", "", &r.priority, 0.0, 99.0,
@@ -48,6 +75,8 @@ void add_realtime(std::vector<Binding>& list, RealtimeSettings& r) {
 std::vector<Binding> safety_bindings(MachineFile& machine) {
   std::vector<Binding> list;
   add_safety(list, machine.safety);
+  add_compensation(list, machine.compensation);
+  add_uncertainty(list, machine.uncertainty);
   add_realtime(list, machine.realtime);
   return list;
 }

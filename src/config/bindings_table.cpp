@@ -47,6 +47,8 @@ std::vector<Binding> table_bindings(hal::mujoco::TableParams& table) {
   std::vector<Binding> list;
   list.push_back({"table", "model", "", &table.model, 1.0, 0.0,
                   "MJCF file, beside this one or in the program's folder mjcf"});
+  list.push_back({"table", "identified", "", &table.is_identified, 0.0, 0.0,
+                  "whether its numbers were found on the machine that they stand for"});
   for (const hal::mujoco::Setting& setting : hal::mujoco::table_settings(table)) {
     list.push_back(binding_of("table", setting));
   }

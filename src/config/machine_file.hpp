@@ -30,6 +30,24 @@ struct HomeSettings {
   double zero = 0.0;            ///< from the index to the axis' zero, signed [mm]
 };
 
+/// How set points are corrected by the identified model, section [compensation].
+struct CompensationSettings {
+  double limit = 0.05;            ///< largest offset of an axis [mm]
+  double path_tolerance = 0.002;  ///< corner error that a corrected run is planned for [mm]
+  double reserve = 0.2;  ///< share of acceleration and jerk that is kept for the offsets [-]
+  double highest_frequency = 80.0;  ///< above which nothing is corrected [Hz]
+};
+
+/// How well the numbers of the table are known where no identification says it, section
+/// [uncertainty]: standard deviations as shares of the values.
+struct UncertaintySettings {
+  double inertia = 0.05;    ///< of moving masses [-]
+  double friction = 0.1;    ///< of Coulomb and viscous friction and bristle stiffness [-]
+  double loop_gain = 0.05;  ///< of gain and integral time of the velocity loop [-]
+  double delay = 0.1;       ///< of current lag and output delay [-]
+  double offset = 0.1;      ///< of the offset of V-REF [-]
+};
+
 /// Everything a machine file says, in base units.
 struct MachineFile {
   std::string name = "xy_table";  ///< the file's name without extension
@@ -41,6 +59,8 @@ struct MachineFile {
   double period = 0.001;  ///< interpolation period T [s]
   motion::InterpolatorSettings interpolation;
   std::array<motion::Gains, hal::kServoAxes> servo;
+  CompensationSettings compensation;
+  UncertaintySettings uncertainty;
   motion::SafetySettings safety;
   RealtimeSettings realtime;
   hal::mujoco::TableParams table;  ///< table.model is absolute once read

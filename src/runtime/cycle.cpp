@@ -29,14 +29,16 @@ motion::AxisServo make_servo(const hal::Machine* machine, std::size_t axis,
 
 Cycle::Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
              const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
-             const motion::SafetySettings& safety, const Limits& limits, Servo* servo)
+             const motion::SafetySettings& safety, const Limits& limits, Servo* servo,
+             const motion::Correction* correction)
     : interpolator_(interpolator),
       machine_(machine),
       servo_(servo),
       period_(period),
       limits_(limits),
       servos_{make_servo(machine, hal::kX, gains, period),
-              make_servo(machine, hal::kY, gains, period)} {
+              make_servo(machine, hal::kY, gains, period)},
+      correction_(correction, period) {
   outputs_.servo_on = {true, true};
   if (machine != nullptr && !machine->info().follows_reference) {
     monitors_.emplace(machine->info(), period, limits.feedrate, safety);
@@ -67,6 +69,9 @@ motion::Status Cycle::prepare() noexcept {
   if (status == motion::Status::kMoving) {
     keep_in_travel(last);
   }
+  if (status == motion::Status::kMoving || interpolator_.has_started()) {
+    correct(status);
+  }
   prepare_time_ = seconds_since(start);
   return status;
 }
@@ -94,6 +99,31 @@ void Cycle::keep_in_travel(const motion::SetPoint& last) noexcept {
   }
 }
 
+/// Adds the offset of this period to the set point, as far as the travel lets it.
+void Cycle::correct(motion::Status status) noexcept {
+  if (!correction_.has_correction()) {
+    corrected_ = set_point_;
+    return;
+  }
+  if (status == motion::Status::kMoving) {
+    correction_.follow(set_point_.position);
+  } else if (interpolator_.has_started()) {
+    correction_.wait();
+  } else {
+    correction_.rest();
+  }
+  const motion::Offset& offset = correction_.offset();
+  corrected_ = set_point_;
+  corrected_.velocity += offset.velocity;
+  corrected_.acceleration += offset.acceleration;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double place = set_point_.position[axis];
+    const double low = std::min(limits_.travel_min[axis] - kTravelRounding, place);
+    const double high = std::max(limits_.travel_max[axis] + kTravelRounding, place);
+    corrected_.position[axis] = std::clamp(place + offset.position[axis], low, high);
+  }
+}
+
 Vec2 Cycle::position_of_counts() const noexcept {
   const auto& scale = machine_->info().mm_per_count;
   return shifted({motion::position_from_counts(inputs_.counts[hal::kX], scale[hal::kX]),
@@ -109,12 +139,12 @@ Vec2 Cycle::true_position() const noexcept {
 void Cycle::ask_servo() noexcept {
   const auto array_of = [](const Vec3& v) { return std::array{v.x(), v.y(), v.z()}; };
   const SetPoint point{.time = time(),
-                       .position = array_of(set_point_.position),
-                       .velocity = array_of(set_point_.velocity),
-                       .acceleration = array_of(set_point_.acceleration),
-                       .feedrate = set_point_.feedrate,
-                       .segment = set_point_.segment,
-                       .line = set_point_.line};
+                       .position = array_of(corrected_.position),
+                       .velocity = array_of(corrected_.velocity),
+                       .acceleration = array_of(corrected_.acceleration),
+                       .feedrate = corrected_.feedrate,
+                       .segment = corrected_.segment,
+                       .line = corrected_.line};
   const auto volts = servo_->volts(point, {measured_.x(), measured_.y()});
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     if (!volts || !std::isfinite((*volts)[i])) {
@@ -130,8 +160,8 @@ void Cycle::ask_servo() noexcept {
 void Cycle::close_loops() noexcept {
   measured_ = position_of_counts();
   table_ = measured_;
-  outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
-                                 set_point_.position.z()};
+  outputs_.position_reference = {corrected_.position.x(), corrected_.position.y(),
+                                 corrected_.position.z()};
   if (is_shifted_) {
     outputs_.position_reference[hal::kX] -= origin_.x();
     outputs_.position_reference[hal::kY] -= origin_.y();
@@ -142,9 +172,9 @@ void Cycle::close_loops() noexcept {
   }
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    outputs_.volts[i] = servos_[i].update({.position = set_point_.position[k],
-                                           .velocity = set_point_.velocity[k],
-                                           .acceleration = set_point_.acceleration[k]},
+    outputs_.volts[i] = servos_[i].update({.position = corrected_.position[k],
+                                           .velocity = corrected_.velocity[k],
+                                           .acceleration = corrected_.acceleration[k]},
                                           measured_[k]);
     is_saturated_[i] = servos_[i].is_saturated();
   }
@@ -156,12 +186,12 @@ bool Cycle::is_safe() noexcept {
     return true;
   }
   std::array<motion::AxisView, hal::kServoAxes> views;
-  const double feedrate = set_point_.velocity.norm();
+  const double feedrate = corrected_.velocity.norm();
   for (std::size_t i = 0; i < hal::kServoAxes; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     views[i] = {.interval = interval_,
-                .command = set_point_.position[k],
-                .velocity = set_point_.velocity[k],
+                .command = corrected_.position[k],
+                .velocity = corrected_.velocity[k],
                 .feedrate = feedrate,
                 .measured = measured_[k],
                 .counts = inputs_.counts[i],
@@ -220,6 +250,12 @@ hal::Status Cycle::respond(results::Sample& sample) noexcept {
 hal::Status Cycle::respond_at_rest() noexcept {
   set_point_.velocity.setZero();
   set_point_.acceleration.setZero();
+  if (!interpolator_.has_started()) {
+    correct(motion::Status::kStarved);
+  } else {
+    corrected_.velocity = correction_.offset().velocity;
+    corrected_.acceleration = correction_.offset().acceleration;
+  }
   results::Sample unused;
   const std::int64_t periods = periods_;
   prepare_time_ = 0.0;
@@ -251,7 +287,7 @@ void Cycle::fill(results::Sample& sample) const noexcept {
   sample.segment = set_point_.segment;
   sample.block = set_point_.block;
   sample.line = set_point_.line;
-  sample.command = set_point_.position;
+  sample.command = corrected_.position;
   sample.feedrate = set_point_.feedrate;
   sample.feedrate_limit = set_point_.feedrate_limit;
   sample.encoder = measured_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hal/machine.hpp"
+#include "motion/correction/correction_follower.hpp"
 #include "motion/interpolator/interpolator.hpp"
 #include "motion/motion_settings.hpp"
 #include "motion/safety/monitors.hpp"
@@ -37,10 +38,11 @@ class Cycle {
   /// @param period    interpolation period T [s]
   /// @param limits    largest feedrate and travel of the machine
   /// @param servo     position loops in place of those with these gains; may be null
+  /// @param correction  offsets of the set points, which outlive the cycle; may be null
   Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
         const std::array<motion::Gains, hal::kServoAxes>& gains, double period,
         const motion::SafetySettings& safety = {}, const Limits& limits = {},
-        Servo* servo = nullptr);
+        Servo* servo = nullptr, const motion::Correction* correction = nullptr);
 
   /// Says where the machine stands before the first period: its counters begin at 0 there [mm].
   void stand_at(const Vec3& place) noexcept;
@@ -87,6 +89,8 @@ class Cycle {
   const std::optional<motion::Trip>& trip() const noexcept { return trip_; }
   /// Time of the next sample, counted from the first one [s].
   double time() const noexcept { return static_cast<double>(periods_) * period_; }
+  /// What goes through the offsets of the set points.
+  const motion::CorrectionFollower& correction() const noexcept { return correction_; }
   /// Returns the trip with time and NC line of this period filled in. Real-time safe.
   motion::Trip stamped(motion::Trip trip) const noexcept;
   /// Writes 0 V and servo off. Not real-time safe.
@@ -104,6 +108,7 @@ class Cycle {
   bool is_safe() noexcept;
   bool is_switched_off() const noexcept { return trip_ && is_immediate(*trip_); }
   void keep_in_travel(const motion::SetPoint& last) noexcept;
+  void correct(motion::Status status) noexcept;
   bool write() noexcept;
   void fill(results::Sample& sample) const noexcept;
 
@@ -118,7 +123,9 @@ class Cycle {
   std::optional<motion::Trip> trip_;
   hal::Inputs inputs_{};
   hal::Outputs outputs_{};
-  motion::SetPoint set_point_{};
+  motion::SetPoint set_point_{};  // without its offset
+  motion::SetPoint corrected_{};  // with it: what the loops follow
+  motion::CorrectionFollower correction_;
   Vec2 origin_ = Vec2::Zero();  // place at which the counters begin [mm]
   bool is_shifted_ = false;     // it is not 0
   Vec2 measured_ = Vec2::Zero();

@@ -6,17 +6,16 @@
 #include <chrono>
 #include <deque>
 #include <memory>
-#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "config/loop_margins.hpp"
 #include "config/machine_file.hpp"
-#include "core/atomic_file.hpp"
 #include "core/must_finish.hpp"
 #include "core/this_program.hpp"
 #include "core/units.hpp"
 #include "hal/active_machine.hpp"
+#include "runtime/correction_file.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/realtime_thread.hpp"
 #include "runtime/recorder.hpp"
@@ -77,7 +76,7 @@ class Run {
                                                       : SampleQueue::Waiting::kAwake),
         interpolator_(planning_->supply(), request.machine.period, request.machine.interpolation),
         cycle_(interpolator_, request.hal, request.machine.servo, request.machine.period,
-               request.machine.safety, request.machine.limits, request.servo),
+               request.machine.safety, request.machine.limits, request.servo, request.correction),
         feed_(interpolator_, planning_->supply(), planning_->replanning(), panel_,
               feed_options(request, first_percent_)) {
     cycle_.stand_at(gcode::start_of(request.program, reader_options(request)));
@@ -263,6 +262,9 @@ results::Summary Run::summarise(double wall_time, const std::optional<Error>& fa
                                         units::mm_per_min_from_mm_per_s(largest),
                                         units::mm_per_min_from_mm_per_s(machine.limits.feedrate)));
   }
+  if (request_.correction != nullptr) {
+    summary.notes.push_back(correction_note(cycle_.correction(), machine.period));
+  }
   summary.settings = config::settings_of(machine);
   recorder_.summarise(summary);
   if (failure) {
@@ -365,18 +367,7 @@ Expected<Outlook> look_at(const RunRequest& request) {
   return outlook;
 }
 
-/// Makes the folder of the results, and that of the plots in it.
-Expected<void> make_folders(const std::filesystem::path& directory) {
-  std::error_code code;
-  if (!directory.empty()) {
-    std::filesystem::create_directories(directory / "plots", code);
-  }
-  return code ? file_error(directory, "make this folder", code.value()) : Expected<void>{};
-}
-
-}  // namespace
-
-Expected<RunResult> run_program(const RunRequest& request) {
+Expected<RunResult> run_planned(const RunRequest& request) {
   TWIN_TRY(Outlook outlook, look_at(request));
   TWIN_CHECK(make_folders(request.directory));
   hal::ActiveMachine machine(request.hal);
@@ -385,6 +376,19 @@ Expected<RunResult> run_program(const RunRequest& request) {
   TWIN_TRY(Recorder recorder, Recorder::create(recorder_options(request), blocks.second()));
   Run run(request, outlook, blocks, std::move(recorder));
   return run.execute();
+}
+
+}  // namespace
+
+Expected<RunResult> run_program(const RunRequest& request) {
+  if (request.correction == nullptr) {
+    return run_planned(request);
+  }
+  RunRequest reserved = request;
+  reserved.machine = planned_with_reserve(request.machine);
+  TWIN_TRY(RunResult result, run_planned(reserved));
+  result.summary.settings = config::settings_of(request.machine);
+  return result;
 }
 
 }  // namespace twin::runtime

@@ -15,6 +15,7 @@
 #include "gcode/notes.hpp"
 #include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
+#include "motion/correction/correction_follower.hpp"
 #include "motion/safety/trip.hpp"
 #include "results/metrics/summary.hpp"
 #include "results/trace/columns.hpp"
@@ -51,6 +52,9 @@ struct RunConduct {
   bool is_wall_clock = false;             ///< each period takes one period of the wall clock
   std::vector<OverrideChange> overrides;  ///< feed override at given times of the motion
   Until until;                            ///< ends the motion early, like the end of the path
+  /// Offsets of the set points, made for this program on this machine; null: none. The program is
+  /// planned with the tolerance and the reserve of [compensation] then.
+  const motion::Correction* correction = nullptr;
 };
 
 /// Whoever watches or operates the run. Members that are null or empty are not used.

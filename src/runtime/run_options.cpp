@@ -1,5 +1,9 @@
 #include "runtime/run_options.hpp"
 
+#include <system_error>
+
+#include "core/atomic_file.hpp"
+
 namespace twin::runtime {
 namespace {
 
@@ -79,6 +83,14 @@ Recorder::Options recorder_options(const RunRequest& request) {
           .has_machine = request.hal != nullptr,
           .is_wall_clock = request.is_wall_clock,
           .durability = request.durability};
+}
+
+Expected<void> make_folders(const std::filesystem::path& directory) {
+  std::error_code code;
+  if (!directory.empty()) {
+    std::filesystem::create_directories(directory / "plots", code);
+  }
+  return code ? file_error(directory, "make this folder", code.value()) : Expected<void>{};
 }
 
 }  // namespace twin::runtime

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "config/machine_file.hpp"
@@ -25,5 +26,8 @@ FeedControl::Options feed_options(const RunRequest& request, double first_percen
 MotionOptions motion_options(const RunRequest& request);
 WallClockPace::Options wall_clock_options(const RunRequest& request);
 Recorder::Options recorder_options(const RunRequest& request);
+
+/// Makes the folder of the results, and that of the plots in it.
+Expected<void> make_folders(const std::filesystem::path& directory);
 
 }  // namespace twin::runtime

@@ -68,6 +68,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.is_wall_clock = is_on_wall_clock();
   run.overrides = request_.overrides;
   run.until = request_.until;
+  run.correction = request_.correction.get();
   run.command = request_.command;
   run.stop = attendance.stop;
   run.panel = attendance.panel;

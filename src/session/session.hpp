@@ -55,8 +55,9 @@ struct Request {
   std::string columns{};   ///< of the trace, as choose_columns() takes them; empty: default
   Servo* servo = nullptr;  ///< position loops in place of the machine file's; may be null
   Pace pace = Pace::kOwn;
-  std::vector<runtime::OverrideChange> overrides{};  ///< feed override at times of the motion
-  runtime::Until until{};                            ///< ends the motion early; may be empty
+  std::vector<runtime::OverrideChange> overrides{};        ///< feed override at times of the motion
+  runtime::Until until{};                                  ///< ends the motion early; may be empty
+  std::shared_ptr<const motion::Correction> correction{};  ///< of the set points; may be null
   std::string command{};   ///< command line or the caller's own words, for the summary
   bool has_bound = false;  ///< whether the summary gets the lower bound of the time
 };

@@ -93,6 +93,13 @@ class LimitAudit {
   /// Ends the trajectory, with the machine at rest after the last set point, and returns the peaks.
   const AuditPeaks& finish() noexcept;
 
+  /// Begins the peaks anew, with everything that is known of the trajectory. So the peaks of one
+  /// stretch after the other can be had. Real-time safe.
+  void forget_peaks() noexcept {
+    peaks_ = {};
+    where_ = {};
+  }
+
   /// Set points from the latest one back to the oldest that where() can name anew.
   static constexpr std::int64_t kOldest = 32;
 

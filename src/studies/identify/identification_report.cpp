@@ -206,6 +206,11 @@ Json axis_json(const AxisFit& fit) {
   return json;
 }
 
+/// Whether the fit of an axis has found a parameter of it.
+bool shows_something(const std::optional<AxisFit>& fit) {
+  return fit && std::ranges::any_of(fit->parameters, is_identified);
+}
+
 }  // namespace
 
 std::string_view verdict_name(Verdict verdict) {
@@ -276,7 +281,10 @@ std::string to_machine_file(const Identification& result) {
   }
   std::string text =
       "# Machine file written by twin identify; its comments say what was found.\n\n";
-  return text + config::to_toml(result.machine, [&comments](const std::string& path) {
+  config::MachineFile machine = result.machine;
+  machine.table.is_identified =
+      machine.table.is_identified || std::ranges::any_of(result.axis, shows_something);
+  return text + config::to_toml(machine, [&comments](const std::string& path) {
            const auto found = comments.find(path);
            return found == comments.end() ? std::string() : found->second;
          });
