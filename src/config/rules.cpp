@@ -86,11 +86,21 @@ Expected<void> check_rig_rules(const hal::rig::RigSettings& rig) {
       .and_then([&] { return check_distinct("analogue input", analogue); });
 }
 
+/// Only the certified planner bounds the jerk as a vector.
+Expected<void> check_jerk(const MachineFile& machine) {
+  if (machine.path.planner == Planner::kPaper && machine.limits.jerk_of == JerkOf::kVector) {
+    return fail(ErrorCode::kUsage,
+                "limits.jerk_of = vector, but planning.planner = paper bounds the jerk along the "
+                "path only: take planning.planner = certified, or limits.jerk_of = path");
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>& given) {
   if (machine.path.planner != Planner::kCertified) {
-    return {};
+    return check_jerk(machine);
   }
   for (const PaperOnly& setting : paper_only_settings(machine)) {
     if (given.contains("planning.planner") && given.contains(setting.path)) {
@@ -103,7 +113,7 @@ Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>
     machine.add_note(
         fmt::format("planning.planner = paper, because {} = {}", setting.path, setting.value));
   }
-  return {};
+  return check_jerk(machine);
 }
 
 Expected<void> check_rules(const MachineFile& machine) {

@@ -137,6 +137,16 @@ TEST(Overrides, WhatTheCertifiedPlannerDoesNotHaveMakesThePlannerThePapersWithAN
   }
 }
 
+TEST(Overrides, TheVectorOfTheJerkIsRefusedWithThePapersPlanner) {
+  for (const char* text : {"planning.planner=paper", "path.curves=bezier"}) {
+    MachineFile machine;
+    const auto done =
+        apply_overrides(machine, std::vector<std::string>{"limits.jerk_of=vector", text});
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("limits.jerk_of = vector, but"));
+  }
+}
+
 TEST(Overrides, AskingForTheCertifiedPlannerAndWhatItDoesNotHaveIsRefused) {
   MachineFile machine;
   const auto done = apply_overrides(

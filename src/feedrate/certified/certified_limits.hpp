@@ -4,11 +4,14 @@
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
+#include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/planner.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
+
+struct ByArcLength;
 
 /// The feedrate limits inside segments with planning.planner = certified. The limits hold at every
 /// place of a segment, not only where its curvature was sampled.
@@ -18,7 +21,7 @@ namespace twin::feedrate {
 ///   the limit of the machine file's rule (FeedrateRules), with kappa v^2 <= A_max,
 ///   the feedrate at which the chord of a period keeps the chord tolerance (chord_error_feedrate),
 ///   the feedrate at which the path turns by no more than the set points can tell in a period,
-///   the limits of each axis (axis_limits.hpp), where they are set.
+///   the limits of each axis (axis_limits.hpp), where they are set, and of the jerk as a vector.
 ///
 /// The servo model allows two contour errors: the circular error where the path is curved for long,
 /// and the larger corner error at a rounded corner, called a brief bend here. A bend that turns by
@@ -72,6 +75,8 @@ class CertifiedLimits final : public LimitSource {
   void find_brief_bends();
   void add_peak(std::size_t first, std::size_t last, double turn);
   double dip_limit(const Peak& peak, double limit, double feedrate) const;
+  void keep_derivatives(const ByArcLength& begin, const ByArcLength& middle, const ByArcLength& end,
+                        BendKind bend, LimitZone& zone) const;
   void keep_axes(const path::FittedCurve& curve, std::size_t interval, LimitZone& zone) const;
   void append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                     std::vector<LimitZone>& zones);
@@ -86,6 +91,8 @@ class CertifiedLimits final : public LimitSource {
   double period_;
   double corner_error_;
   bool has_axis_limits_;
+  bool has_vector_limits_;
+  Limits vector_limits_;
   double least_jerk_;                // of the path and of all axes [mm/s^3]
   std::vector<Interval> intervals_;  // of the curve that is being processed
   std::vector<Peak> peaks_;          // of its brief bends

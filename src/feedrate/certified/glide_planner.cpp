@@ -79,7 +79,12 @@ bool GlidePlanner::is_due(const Window& window) const {
 }
 
 void GlidePlanner::schedule(const Window& window) {
-  const double braking = longest_descent(window.fastest, window.fastest, ramp_);
+  double braking = longest_descent(window.fastest, window.fastest, ramp_);
+  double passage = 0.0;  // longest one, which is no place to brake
+  for (const LimitZone& zone : window.zones) {
+    passage = is_passage(zone) ? std::max(passage, zone.end - zone.begin) : passage;
+  }
+  braking += passage;
   due_.length = window.length + kBrakingDistances * braking + corner_reach_;
   due_.segments = std::max(window.segments.size() + look_ahead_, kMostSegments / 4);
   due_.zones = window.zones.size() + std::max(window.zones.size(), kFewestZones);
@@ -155,7 +160,7 @@ void GlidePlanner::find_pieces(std::span<const LimitZone> zones) {
   std::size_t phase = 0;
   const double begin = plan_.empty() ? 0.0 : plan_.front().s;
   double last = begin;
-  const auto add = [&](double end, const RampLimits& ramp) {
+  const auto add = [&](double end, const RampLimits& ramp, double held_above) {
     if (end <= last + kPlaceRounding || plan_.empty()) {
       return;
     }
@@ -164,14 +169,14 @@ void GlidePlanner::find_pieces(std::span<const LimitZone> zones) {
     }
     const Phase& there = plan_[phase];
     const PathMotion at = motion_at(there, std::min(time_at(there, end), there.duration));
-    pieces_.push_back({end, at.v, at.a, ramp});
+    pieces_.push_back({end, at.v, at.a, ramp, held_above});
     last = end;
   };
   for (std::size_t i = 0; i < zones.size(); ++i) {
     const RampLimits ramp{std::min(zones[i].deceleration, ramp_.acceleration),
                           std::min(zones[i].jerk, ramp_.jerk), ramp_.profile};
     for (; leg < legs.size() && legs[leg] < zones[i].end - kPlaceRounding; ++leg) {
-      add(legs[leg], ramp);
+      add(legs[leg], ramp, zones[i].held_above);
       if (!pieces_.empty() && pieces_.back().end == legs[leg]) {
         pieces_.back().a = 0.0;
       }
@@ -179,11 +184,12 @@ void GlidePlanner::find_pieces(std::span<const LimitZone> zones) {
     const bool ends_leg = leg < legs.size() && legs[leg] <= zones[i].end + kPlaceRounding;
     const bool is_same = i + 1 < zones.size() && zones[i + 1].end > zones[i + 1].begin &&
                          zones[i + 1].deceleration == zones[i].deceleration &&
-                         zones[i + 1].jerk == zones[i].jerk;
+                         zones[i + 1].jerk == zones[i].jerk &&
+                         zones[i + 1].held_above == zones[i].held_above;
     if ((is_same && !ends_leg) || zones[i].end <= zones[i].begin) {
       continue;
     }
-    add(ends_leg ? legs[leg] : zones[i].end, ramp);
+    add(ends_leg ? legs[leg] : zones[i].end, ramp, zones[i].held_above);
     if (ends_leg && !pieces_.empty()) {
       pieces_.back().a = 0.0;
     }
@@ -196,7 +202,7 @@ void GlidePlanner::plan_evenly(const Window& window, double horizon) {
   std::vector<LimitZone> even(window.zones);
   double lowest = std::numeric_limits<double>::infinity();
   for (const LimitZone& zone : even) {
-    lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
+    lowest = zone.limit > 0.0 ? std::min({lowest, zone.limit, zone.held_above}) : lowest;
   }
   for (LimitZone& zone : even) {
     zone = {zone.begin,          zone.end,   std::min(zone.limit, lowest), least_.acceleration,
@@ -248,6 +254,9 @@ double GlidePlanner::descent_at(const Window& window, double horizon, double v) 
     if (zone.end <= horizon - distance) {
       break;
     }
+    if (is_passage(zone) && zone.begin >= horizon - kPlaceRounding) {
+      continue;
+    }
     least.acceleration = std::min(least.acceleration, zone.deceleration);
     least.jerk = std::min(least.jerk, zone.jerk);
     distance = longest_descent(v, v, least);
@@ -277,7 +286,9 @@ double GlidePlanner::room_after(const Window& window, const Anchor& anchor, doub
 
 /// The last place of the plan that no segment to come can change.
 GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double horizon) {
-  const Glide::Part& part = glide_.parts().back();
+  const std::size_t last = glide_.last_free_part();
+  const Glide::Part& part = glide_.parts()[last];
+  horizon = std::min(horizon, glide_.free_end());
   for (std::size_t i = part.descent + 1; i-- > part.first;) {
     if (i >= plan_.size() || !is_level(plan_[i])) {
       continue;
@@ -291,7 +302,8 @@ GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double horizon)
     return {i, is_hold ? std::min(phase.duration, std::max(room, 0.0) / phase.v) : 0.0};
   }
   // The last anchor is too close to the window's end: one summit back it is not.
-  return {glide_.parts().size() > 1 ? std::prev(glide_.parts().end(), 2)->first : 0, 0.0};
+  return {std::max(last > 0 ? glide_.parts()[last - 1].first : 0, glide_.first_after_passage()),
+          0.0};
 }
 
 /// The next place without acceleration of the last plan.
@@ -340,14 +352,15 @@ void GlidePlanner::commit_stretches(Window& window) {
     window.stretches.push_back({.end = start.s,
                                 .ramp = pieces_.front().ramp,
                                 .v = start.v,
-                                .rest = rest_after(0, {start.s, start.v, 0.0})});
+                                .rest = rest_after(0, {start.s, start.v, 0.0}),
+                                .held_above = pieces_.front().held_above});
   }
 }
 
 /// A piece as a stretch of which the plan is known up to a place.
 Stretch GlidePlanner::stretch_of(std::size_t piece, double last) const {
   const Piece& here = pieces_[piece];
-  Stretch stretch{.end = here.end, .ramp = here.ramp, .v = here.v};
+  Stretch stretch{.end = here.end, .ramp = here.ramp, .v = here.v, .held_above = here.held_above};
   if (here.a < 0.0 && here.v > 0.0) {
     stretch.fall = -here.a / (here.v * here.v);
   }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "feedrate/certified/glide.hpp"
+#include "feedrate/certified/passage_glide.hpp"
 #include "feedrate/planner.hpp"
 
 namespace twin::feedrate {
@@ -47,10 +47,11 @@ class GlidePlanner final : public WindowPlanner {
   /// A part of the plan within one acceleration and jerk, on which the feedrate rises once and falls
   /// once at most.
   struct Piece {
-    double end;       // [mm]
-    double v;         // of the plan there [mm/s]
-    double a;         // the same [mm/s^2]
-    RampLimits ramp;  // that every place of it allows
+    double end;         // [mm]
+    double v;           // of the plan there [mm/s]
+    double a;           // the same [mm/s^2]
+    RampLimits ramp;    // that every place of it allows
+    double held_above;  // as that of its zone [mm/s]
   };
 
   /// A place of the plan.
@@ -80,7 +81,7 @@ class GlidePlanner final : public WindowPlanner {
   Due due_;
   RampLimits least_{};    // of all zones of the window
   double fastest_ = 0.0;  // limit of all of them [mm/s]
-  Glide glide_;
+  PassageGlide glide_;
   Ascent probe_;
   ZoneAscent zone_probe_;
   std::vector<LimitZone> calmed_;  // zones of a plan, where places limit the jerk beside them

@@ -17,7 +17,14 @@ struct LimitZone {
   double acceleration = std::numeric_limits<double>::infinity();  ///< tangential [mm/s^2]
   double deceleration = std::numeric_limits<double>::infinity();  ///< the same where a < 0 [mm/s^2]
   double jerk = std::numeric_limits<double>::infinity();          ///< tangential [mm/s^3]
+  /// Above this feedrate the zone is passed without acceleration: the passage of a corner [mm/s].
+  double held_above = std::numeric_limits<double>::infinity();
 };
+
+/// Whether a zone is the passage of a corner.
+inline bool is_passage(const LimitZone& zone) noexcept {
+  return zone.held_above < std::numeric_limits<double>::infinity();
+}
 
 /// Whether two zones allow the same tangential acceleration and jerk.
 bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept;
