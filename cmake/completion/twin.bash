@@ -1,12 +1,15 @@
 # Completion of twin's command line for bash: commands and options from its own help, programs, machine files.
 
-# Words that stand first in the lines of a help's section: _twin_help_words SECTION WORD...
-_twin_help_words() {
-  local section=$1
-  shift
-  "$@" --help 2>/dev/null | awk -v section="$section" '
-    /^[A-Z].*:$/ { inside = ($0 == section ":") }
-    inside && /^  / { split($1, names, ","); for (n in names) print names[n] }'
+# Options of a command, of all groups in its help: _twin_options WORD...
+_twin_options() {
+  "$@" --help 2>/dev/null | awk '/^  -/ { split($1, names, ","); for (n in names) print names[n] }'
+}
+
+# Commands below a command, of all groups in its help: _twin_commands WORD...
+_twin_commands() {
+  "$@" --help 2>/dev/null | awk '
+    /^[A-Z].*:$/ { inside = ($0 !~ /^(Positionals|Options|Examples):$/) }
+    inside && /^  [a-z]/ { print $1 }'
 }
 
 # Files in a folder of the program's data with an ending, and those here: _twin_files FOLDER ENDING WORD
@@ -33,11 +36,20 @@ _twin() {
       ;;
     --out | --store) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --hal) mapfile -t COMPREPLY < <(compgen -W "mujoco ideal rig" -- "$word") ;;
+    --trace) mapfile -t COMPREPLY < <(compgen -W "csv hdf5 both none" -- "$word") ;;
+    --for)
+      [[ ${command[*]} == "twin tune" ]] && mapfile -t COMPREPLY < <(compgen -W "error time" -- "$word")
+      ;;
+    --vary)
+      mapfile -t COMPREPLY < <(compgen -W "$(twin settings --keys 2>/dev/null)" -S = -- "$word")
+      compopt -o nospace
+      ;;
+    --also) mapfile -t COMPREPLY < <(_twin_files nc_programs nc "$word") ;;
     *)
       if [[ $word == -* ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "$(_twin_help_words Options "${command[@]}")" -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W "$(_twin_options "${command[@]}")" -- "$word")
       elif ((${#command[@]} == 1)) || [[ ${command[*]} == "twin rig" ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "$(_twin_help_words Subcommands "${command[@]}")" -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W "$(_twin_commands "${command[@]}")" -- "$word")
       else
         mapfile -t COMPREPLY < <(_twin_files nc_programs nc "$word")
       fi

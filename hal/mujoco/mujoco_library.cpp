@@ -69,6 +69,7 @@ Expected<MujocoLibrary> MujocoLibrary::open(const std::string& file) {
   TWIN_CHECK(set_handlers(names));
   MujocoLibrary library;
   TWIN_CHECK(names.take(library.load_xml, "mj_loadXML"));
+  TWIN_CHECK(names.take(library.copy_model, "mj_copyModel"));
   TWIN_CHECK(names.take(library.delete_model, "mj_deleteModel"));
   TWIN_CHECK(names.take(library.make_data, "mj_makeData"));
   TWIN_CHECK(names.take(library.delete_data, "mj_deleteData"));

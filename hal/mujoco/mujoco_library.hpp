@@ -35,6 +35,7 @@ class MujocoLibrary {
   static Expected<MujocoLibrary> open(const std::string& file);
 
   decltype(&::mj_loadXML) load_xml = nullptr;
+  decltype(&::mj_copyModel) copy_model = nullptr;
   decltype(&::mj_deleteModel) delete_model = nullptr;
   decltype(&::mj_makeData) make_data = nullptr;
   decltype(&::mj_deleteData) delete_data = nullptr;

@@ -192,6 +192,9 @@ class ArgumentParser {
     add<SweepArguments>(
         app_, "sweep",
         "Run a program with many settings: a table, a page with the best of them, a machine file");
+    add<TuneArguments>(
+        app_, "tune",
+        "Find servo gains and planner settings for least contour error, or least time within one");
     add_rig_commands();
   }
 

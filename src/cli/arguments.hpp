@@ -11,6 +11,7 @@
 
 #include "cli/terminal.hpp"
 #include "core/error.hpp"
+#include "results/trace/trace_files.hpp"
 
 /// What a command line says, as plain values: a struct for each command, in base units.
 namespace twin::cli {
@@ -53,12 +54,12 @@ struct HalArguments {
 
 /// Where results go, and what is said of them.
 struct ResultArguments {
-  std::filesystem::path folder;  ///< --out; empty: one below renders
-  bool has_plots = true;         ///< without --no-plots
-  bool has_page = true;          ///< without --no-report
-  bool has_trace = true;         ///< without --no-trace
-  bool has_json = false;         ///< --json: the summary goes to stdout as it is in the file
-  std::string columns;           ///< --columns, of the trace; empty: the default ones
+  std::filesystem::path folder;                           ///< --out; empty: one below renders
+  bool has_plots = true;                                  ///< without --no-plots
+  bool has_page = true;                                   ///< without --no-report
+  results::TraceFiles trace = results::TraceFiles::kCsv;  ///< --trace, --no-trace
+  bool has_json = false;  ///< --json: the summary goes to stdout as it is in the file
+  std::string columns;    ///< --columns, of the trace; empty: the default ones
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -185,6 +186,22 @@ struct SweepArguments {
   BatchRunArguments run;
 };
 
+struct TuneArguments {
+  std::vector<std::string> programs;
+  std::optional<double> feedrate;  ///< [mm/s]
+  MachineArguments machine;
+  std::string aim = "error";            ///< --for: "error", "time"
+  std::optional<double> largest_error;  ///< --within-um [um]
+  double gain_margin = 6.0;             ///< --gain-margin-dB [dB]
+  double phase_margin = 30.0;           ///< --phase-margin-deg [deg]
+  std::vector<std::string> ranges;      ///< --vary KEY=FROM:TO[:log]; empty: the usual ones
+  std::vector<std::string> further;     ///< --also, programs that are judged and not tuned on
+  std::size_t trials = 2000;            ///< --trials
+  std::uint32_t seed = 1;               ///< --seed
+  std::filesystem::path folder;         ///< --out; empty: one below renders
+  BatchRunArguments run;
+};
+
 struct RigProbeArguments {
   MachineArguments machine;
   RigArguments rig;
@@ -233,8 +250,8 @@ using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
                  ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
                  CircleArguments, IdentifyArguments, ConvertArguments, BatchArguments,
-                 SweepArguments, RigProbeArguments, RigMonitorArguments, RigCheckArguments,
-                 RigJogArguments, RigHomeArguments, RigEmulateArguments>;
+                 SweepArguments, TuneArguments, RigProbeArguments, RigMonitorArguments,
+                 RigCheckArguments, RigJogArguments, RigHomeArguments, RigEmulateArguments>;
 
 /// Reads a command line.
 ///

@@ -1,9 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
+#include "core/parallel_for.hpp"
 #include "core/wall_clock.hpp"
 #include "session/results.hpp"
 #include "studies/batch/batch.hpp"
@@ -17,18 +24,31 @@ namespace {
 
 namespace batch = studies::batch;
 
+/// Parts of the jobs that are prepared side by side, each with its own copy of their programs.
+constexpr std::size_t kParts = 16;
+
 /// Prepares jobs. An error names the job by its number, which in a job file is its line.
 Expected<std::vector<batch::PreparedJob>> prepare(const std::vector<batch::Job>& jobs) {
-  batch::JobMaker maker;
-  std::vector<batch::PreparedJob> prepared;
-  prepared.reserve(jobs.size());
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    auto job = maker.prepare(jobs[i]);
-    if (!job) {
-      job.error().message = fmt::format("job {}: {}", i + 1, job.error().message);
-      return tl::unexpected(std::move(job.error()));
+  const std::size_t parts = std::min<std::size_t>(jobs.size(), kParts);
+  std::vector<batch::PreparedJob> prepared(jobs.size());
+  std::vector<std::optional<Error>> errors(parts);
+  parallel_for(parts, [&](std::size_t part) {
+    batch::JobMaker maker;
+    const std::size_t end = (part + 1) * jobs.size() / parts;
+    for (std::size_t i = part * jobs.size() / parts; i < end; ++i) {
+      auto job = maker.prepare(jobs[i]);
+      if (!job) {
+        errors[part] = std::move(job.error());
+        errors[part]->message = fmt::format("job {}: {}", i + 1, errors[part]->message);
+        return;
+      }
+      prepared[i] = std::move(*job);
     }
-    prepared.push_back(std::move(*job));
+  });
+  for (auto& error : errors) {
+    if (error) {
+      return tl::unexpected(*std::move(error));
+    }
   }
   return prepared;
 }
@@ -39,14 +59,18 @@ std::string time_text(double seconds) {
                     : fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
+using TakeResult = std::function<void(const batch::PreparedJob&, const batch::StoredResult&)>;
+
 Expected<batch::Report> run(const std::vector<batch::PreparedJob>& jobs, const batch::Store& store,
-                            const BatchRunArguments& arguments, const Environment& environment) {
+                            const BatchRunArguments& arguments, const Environment& environment,
+                            TakeResult take_result = {}) {
   Progress progress("running", arguments.verbosity);
   batch::Options options;
   options.workers = arguments.workers;
   options.shard = arguments.shard;
   options.shards = arguments.shards;
   options.stop = &environment.stop;
+  options.result = std::move(take_result);
   options.progress = [&](const batch::Progress& at) {
     progress.rename(
         fmt::format("{} of {} runs, {} left", at.done, at.jobs, time_text(at.time_left)));
@@ -93,15 +117,16 @@ Expected<void> execute(const SweepArguments& arguments, const Environment& envir
   BatchRunArguments conduct = arguments.run;
   conduct.store = conduct.store.empty() ? out / "store" : conduct.store;
   TWIN_TRY(const auto store, batch::Store::open(conduct.store));
-  TWIN_TRY(const auto report, run(prepared, store, conduct, environment));
+  std::map<std::string, batch::StoredResult, std::less<>> results;
+  TWIN_TRY(const auto report,
+           run(prepared, store, conduct, environment,
+               [&results](const batch::PreparedJob& job, const batch::StoredResult& result) {
+                 results.emplace(job.key, batch::figures_of(result));
+               }));
   print(report, store, conduct.verbosity);
   std::vector<batch::Row> rows;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto result = store.find(prepared[i]);
-    if (!result) {
-      return fail(ErrorCode::kFile, "the store has lost a result while it was read; run it again");
-    }
-    rows.push_back({points[i], prepared[i], *result});
+    rows.push_back({points[i], prepared[i], results.at(prepared[i].key)});
   }
   TWIN_CHECK(
       batch::write_sweep(batch::keys_of(sweep), rows, arguments.sweep.filename().string(), out));

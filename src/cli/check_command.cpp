@@ -142,12 +142,17 @@ void print_notes(const std::string& file, const ProgramReport& report) {
   }
 }
 
-/// Prints what is said of a program. @returns its last error, which main() prints
+/// Prints what is said of a program, errors first.
+/// @returns an error for main() to print: the only one, or how many there are
 Expected<void> print(const std::string& file, const ProgramReport& report, Verbosity verbosity) {
-  for (std::size_t i = 0; i + 1 < report.errors.size(); ++i) {
-    print_error(report.errors[i]);
-  }
   const bool is_accepted = report.errors.empty();
+  const bool has_notes = verbosity == Verbosity::kNormal && !report.notes.empty();
+  if (report.errors.size() == 1 && !has_notes) {
+    return tl::unexpected(report.errors.front());
+  }
+  for (const Error& error : report.errors) {
+    print_error(error);
+  }
   if (verbosity == Verbosity::kNormal) {
     if (is_accepted) {
       print_figures(file, report);
@@ -157,7 +162,13 @@ Expected<void> print(const std::string& file, const ProgramReport& report, Verbo
     }
     print_notes(file, report);
   }
-  return is_accepted ? Expected<void>() : tl::unexpected(report.errors.back());
+  if (is_accepted) {
+    return {};
+  }
+  return fail(
+      ErrorCode::kProgram,
+      fmt::format("{} is refused: {} error{}{}", file, report.errors.size(),
+                  report.errors.size() == 1 ? "" : "s", report.has_more_errors ? " or more" : ""));
 }
 
 /// Reads one program and tells of it, on the terminal or in JSON.

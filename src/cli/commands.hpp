@@ -29,6 +29,7 @@ Expected<void> execute(const IdentifyArguments& arguments, const Environment& en
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment);
 Expected<void> execute(const BatchArguments& arguments, const Environment& environment);
 Expected<void> execute(const SweepArguments& arguments, const Environment& environment);
+Expected<void> execute(const TuneArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigProbeArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigMonitorArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigCheckArguments& arguments, const Environment& environment);

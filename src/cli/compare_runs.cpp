@@ -117,6 +117,7 @@ Expected<void> compare_variants(const CompareArguments& arguments,
     request.feedrate = arguments.feedrate;
     request.folder = out / as_folder(variant.name);
     request.command = environment.command_line;
+    request.trace = arguments.results.trace;
     request.make_machine = session::simulated_machine(arguments.hal);
     folders.push_back(request.folder);
     TWIN_TRY(session::Session session, session::Session::open(std::move(request)));

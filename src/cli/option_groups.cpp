@@ -175,17 +175,32 @@ void add_results(CLI::App& command, ResultArguments& results, const std::string&
   add_quiet(command, results.verbosity);
 }
 
+void add_trace(CLI::App& command, ResultArguments& results, bool has_none) {
+  const auto take = [&results](const std::string& name) {
+    results.trace = *results::trace_files_of(name);
+  };
+  const auto last = results::kTraceFilesNames.end() - (has_none ? 0 : 1);
+  command
+      .add_option_function<std::string>(
+          "--trace", take,
+          std::string("Files of the trace: csv (trace.csv), hdf5 (trace.h5), both") +
+              (has_none ? ", none [csv]" : " [csv]"))
+      ->check(CLI::IsMember(std::vector<std::string>(results::kTraceFilesNames.begin(), last)))
+      ->type_name("FORMAT");
+}
+
 void add_run_results(CLI::App& command, ResultArguments& results) {
   add_results(command, results);
   command.add_flag_callback(
       "--no-report", [&results] { results.has_page = false; }, "Write no report.html");
   command
       .add_option("--columns", results.columns,
-                  "Columns of trace.csv: names, default, all, as in default,path_mm,x_torque_Nm")
+                  "Columns of the trace: names, default, all, as in default,path_mm,x_torque_Nm")
       ->type_name("NAME,...");
+  add_trace(command, results, true);
   command.add_flag_callback(
-      "--no-trace", [&results] { results.has_trace = false; },
-      "Write the summary alone: no trace, and so no plots and no report");
+      "--no-trace", [&results] { results.trace = results::TraceFiles::kNone; },
+      "Write the summary alone, as --trace none: no plots and no report");
   command.add_flag("--json", results.has_json, "Print summary.json in place of the table");
 }
 

@@ -40,6 +40,8 @@ void add_quiet(CLI::App& command, Verbosity& verbosity,
 void add_no_plots(CLI::App& command, bool& has_plots);
 void add_results(CLI::App& command, ResultArguments& results,
                  const std::string& folder = "PROGRAM");
+/// As which files traces are written. @param has_none  whether they may be left out
+void add_trace(CLI::App& command, ResultArguments& results, bool has_none = false);
 /// What a run or a plan leaves and says.
 void add_run_results(CLI::App& command, ResultArguments& results);
 /// Results of which there are no plots.

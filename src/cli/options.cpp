@@ -135,6 +135,7 @@ void add_options(CLI::App& command, CompareArguments& compare) {
   add_reading(command, compare.machine);
   add_simulated_hal(command, compare.hal);
   add_results(command, compare.results, "PROGRAM_compare");
+  add_trace(command, compare.results);
 }
 
 void add_options(CLI::App& command, ReproduceArguments& reproduce) {
@@ -145,6 +146,7 @@ void add_options(CLI::App& command, ReproduceArguments& reproduce) {
       ->type_name("N")
       ->capture_default_str();
   add_results(command, reproduce.results, "reproduce");
+  add_trace(command, reproduce.results);
 }
 
 void add_options(CLI::App& command, CircleArguments& circle) {
@@ -156,13 +158,15 @@ void add_options(CLI::App& command, CircleArguments& circle) {
   add_curves(command, circle.machine);
   add_hal(command, circle.hal);
   add_results(command, circle.results, "circle");
+  add_trace(command, circle.results);
 }
 
 void add_options(CLI::App& command, IdentifyArguments& identify) {
   command
       .add_option("traces", identify.traces,
-                  "Traces: trace.csv of a run, or any CSV of time, command and measured position")
-      ->type_name("TRACE.csv ...");
+                  "Traces: trace.csv or trace.h5 of a run, or any CSV or HDF5 of time, command and "
+                  "measured position")
+      ->type_name("TRACE ...");
   command.add_flag("--tables", identify.has_tables,
                    "Fit Tables 4 and 5 of Wang and Yau's paper in place of traces");
   add_machine(command, identify.machine);
@@ -174,7 +178,7 @@ void add_options(CLI::App& command, IdentifyArguments& identify) {
       ->type_name("SIGNAL=COLUMN[:UNIT],...");
   add_list(command, "--validate", identify.validating,
            "Traces that are predicted and not fitted; without, the end of each trace is held out")
-      ->type_name("TRACE.csv");
+      ->type_name("TRACE");
   add_no_plots(command, identify.has_plots);
   command
       .add_option("--out", identify.file,
@@ -272,6 +276,65 @@ void add_options(CLI::App& command, SweepArguments& sweep) {
   add_batch_run(command, sweep.run);
 }
 
+void add_options(CLI::App& command, TuneArguments& tune) {
+  command.footer(
+      "Examples:\n"
+      "  twin tune dolphin.nc oxalis.nc --also square.nc\n"
+      "  twin tune part.nc --for time --within-um 50\n"
+      "  twin tune part.nc --vary servo.x.kp_per_s=100:500:log --trials 200");
+  command.add_option("programs", tune.programs, "NC programs: files, or names in nc_programs")
+      ->required()
+      ->type_name("PROGRAM.nc ...");
+  add_feedrate(command, tune.feedrate);
+  add_machine(command, tune.machine);
+  begin_group(command, "Aim");
+  command
+      .add_option("--for", tune.aim,
+                  "error: least contour error of any program; time: least machining time of all "
+                  "within --within-um")
+      ->check(CLI::IsMember({"error", "time"}))
+      ->type_name("AIM")
+      ->capture_default_str();
+  command
+      .add_option("--within-um", tune.largest_error,
+                  "Contour error to keep with --for time [that of the machine file's settings]")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->type_name("E");
+  command
+      .add_option("--gain-margin-dB", tune.gain_margin, "Least gain margin of both position loops")
+      ->check(CLI::Range(0.0, 60.0))
+      ->type_name("M")
+      ->capture_default_str();
+  command.add_option("--phase-margin-deg", tune.phase_margin, "Least phase margin of both")
+      ->check(CLI::Range(0.0, 90.0))
+      ->type_name("P")
+      ->capture_default_str();
+  begin_group(command, "Search");
+  add_list(command, "--vary", tune.ranges,
+           "Setting to tune, and its range, as in servo.x.kp_per_s=100:500:log (repeatable) [gains "
+           "and feedforwards of both axes; with --for time jerk and tolerances as well]")
+      ->type_name("KEY=FROM:TO[:log]");
+  add_list(command, "--also", tune.further,
+           "Program that is shown before and after, and not tuned on (repeatable)")
+      ->type_name("PROGRAM.nc");
+  command.add_option("--trials", tune.trials, "Combinations of settings at most")
+      ->check(CLI::Range(1, 10000000))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", tune.seed, "Of the search; same seed, same result")
+      ->capture_default_str();
+  begin_group(command, "Results");
+  command
+      .add_option("--store", tune.run.store,
+                  "Folder of the results of runs; what it holds is not computed again [OUT/store]")
+      ->type_name("DIR");
+  command
+      .add_option("--out", tune.folder,
+                  "Folder of machine file, table and page [renders/PROGRAM_tune]")
+      ->type_name("DIR");
+  add_batch_run(command, tune.run);
+}
+
 void add_options(CLI::App& command, RigProbeArguments& probe) {
   add_machine(command, probe.machine);
   add_rig(command, probe.rig);
@@ -298,6 +361,7 @@ void add_options(CLI::App& command, RigJogArguments& jog) {
   add_machine(command, jog.machine);
   add_moving_rig(command, jog.rig);
   add_last_results(command, jog.results, "Folder of the trace [renders/rig_jog]");
+  add_trace(command, jog.results, true);
 }
 
 void add_options(CLI::App& command, RigHomeArguments& home) {

@@ -229,7 +229,9 @@ Expected<void> execute(const RigJogArguments& arguments, const Environment& envi
                                arguments.distance,
                                arguments.feedrate.value(),
                                arguments.results.folder,
-                               environment.command_line};
+                               environment.command_line,
+                               {},
+                               arguments.results.trace};
   TWIN_TRY(const auto rig, open_rig(arguments.rig, machine,
                                     fmt::format("rig jog --axis {} --distance-mm {:g}",
                                                 arguments.axis, move.distance)));

@@ -40,7 +40,7 @@ Expected<session::Request> request_of(const ProgramArguments& program,
   request.feedrate = program.feedrate;
   request.folder = results.folder;
   request.columns = results.columns;
-  request.has_trace = results.has_trace;
+  request.trace = results.trace;
   if (!overrides.empty()) {
     TWIN_TRY(request.overrides, runtime::parse_override_schedule(overrides));
   }
@@ -99,7 +99,7 @@ Expected<runtime::RunResult> run_with_operator(session::Session& session, Verbos
 /// is what matters. A user who interrupts does not wait for plots.
 void show_what_was_done(const session::Session& session, const Error& why,
                         const ResultArguments& results) {
-  if (!results.has_trace) {
+  if (results.trace == results::TraceFiles::kNone) {
     return;
   }
   if (results.has_page) {
@@ -147,10 +147,11 @@ void leave_out_pictures(ResultArguments& results) {
 Expected<void> make_pictures(const session::Session& session, ResultArguments results,
                              const VideoArguments& video) {
   leave_out_pictures(results);
-  if (results.has_page && results.has_trace) {
+  const bool has_trace = results.trace != results::TraceFiles::kNone;
+  if (results.has_page && has_trace) {
     TWIN_CHECK(session.write_report());
   }
-  if (results.has_plots && results.has_trace) {
+  if (results.has_plots && has_trace) {
     Progress progress("plots", results.verbosity);
     progress.show(0.0);
     TWIN_CHECK(session.draw_figures());
@@ -160,7 +161,7 @@ Expected<void> make_pictures(const session::Session& session, ResultArguments re
     TWIN_CHECK(session.render_video(video.camera, progress.callback()));
   }
   if (results.verbosity == Verbosity::kNormal && !results.has_json) {
-    const bool has_page = results.has_page && results.has_trace;
+    const bool has_page = results.has_page && has_trace;
     print_out("results in {}{}\n", session.folder().string(),
               has_page ? "; look at report.html" : "");
   }

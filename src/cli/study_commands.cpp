@@ -133,6 +133,7 @@ Expected<void> execute(const CompareArguments& arguments, const Environment& env
   TWIN_TRY(const auto workshop, pictures::Workshop::open(out));
   request.folder = workshop.folder();
   request.running.stop = &environment.stop;
+  request.running.trace = arguments.results.trace;
   TWIN_CHECK(is_one ? compare_contestants(arguments.results, request, workshop)
                     : compare_planners(arguments.results, request, programs, workshop));
   if (arguments.results.verbosity == Verbosity::kNormal) {
@@ -171,6 +172,7 @@ Expected<void> execute(const ReproduceArguments& arguments, const Environment& e
     return *session::make_simulated_machine("mujoco", file);
   };
   request.running.stop = &environment.stop;
+  request.running.trace = arguments.results.trace;
   Expected<studies::reproduce::Reproduction> reproduction;
   {
     Progress progress("machining", results.verbosity);
@@ -226,6 +228,7 @@ Expected<void> execute(const CircleArguments& arguments, const Environment& envi
   test.hal = arguments.hal.name;
   test.make_machine = machine_of(arguments.hal);
   test.command = environment.command_line;
+  test.trace = arguments.results.trace;
   test.radius = arguments.radius;
   test.feedrate = arguments.feedrate.value_or(test.feedrate);
   test.folder = session::result_folder(arguments.results.folder, "circle");

@@ -20,9 +20,17 @@ void add_program(List& list, ProgramSettings& p) {
   list.push_back({section, "ignored_axes", "", &p.ignored_axes, 0.0, 0.0,
                   "letters of A B C U V W whose words are left out"});
   list.push_back({section, "default_feedrate", "mm_per_min", &p.default_feedrate, 0.0, 1e5,
-                  "of feed moves before the first F; 0: they are refused", kPerMinute});
+                  "of feed moves without an F; 0: they are refused", kPerMinute});
+  list.push_back({section, "parameters", "", &p.parameters, 0.0, 0.0,
+                  "values of parameters at the start, as \"#100 = 5, _hal[a.b] = 1\""});
   list.push_back({section, "workpiece", "mm", &p.workpiece, -1e4, 1e4,
                   "where the origin of a program's coordinates lies (x, y, z)"});
+  list.push_back({section, "start", "mm", &p.start, -1e4, 1e4,
+                  "where the machine stands when a program begins (x, y, z)"});
+  list.push_back(
+      {section, "lifts_start", "", &p.lifts_start, 0.0, 0.0,
+       "with start z = 0: a program that begins with a rapid across starts at the height "
+       "of its rapids"});
   list.push_back({section, "tool_table", "", &p.tool_table, 0.0, 0.0,
                   "file with lengths and diameters of tools, as LinuxCNC has it; empty: none"});
   list.push_back({section, "skips_deleted", "", &p.skips_deleted, 0.0, 0.0,
@@ -50,9 +58,9 @@ void add_limits(List& list, Limits& l) {
   list.push_back({section, "axis_jerk", "mm_per_s3", &l.axis_jerk, 0.0, 1e9,
                   "jerk limit of each axis, x y z; 0: no limit of its own"});
   list.push_back(
-      {section, "travel_min", "mm", &l.travel_min, -1e4, 1e4, "lower ends of travel, x y z"});
+      {section, "travel_min", "mm", &l.travel_min, -1e5, 1e5, "lower ends of travel, x y z"});
   list.push_back(
-      {section, "travel_max", "mm", &l.travel_max, -1e4, 1e4, "upper ends of travel, x y z"});
+      {section, "travel_max", "mm", &l.travel_max, -1e5, 1e5, "upper ends of travel, x y z"});
 }
 
 void add_planning(List& list, PlanningModel& p, PathSettings& s) {
@@ -71,6 +79,9 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "circular contouring error, Eq. 4"});
   list.push_back(
       {section, "corner_error", "mm", &p.corner_error, 1e-6, 10.0, "corner error, Eqs. 1 and 16"});
+  list.push_back({section, "critical_feedrate", "mm_per_min", &p.critical_feedrate, 1.0, 1e6,
+                  "certified planner: tighter bends than A_max / V^2 keep the circular error",
+                  kPerMinute});
   list.push_back({section, "chord_error", "mm", &s.chord_error, 1e-6, 10.0,
                   "chord tolerance; a curve's distance from the polygon"});
   list.push_back(

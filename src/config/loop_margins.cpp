@@ -1,5 +1,6 @@
 #include "config/loop_margins.hpp"
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -9,8 +10,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kLowest = 0.1;   // of the search [rad/s]
-constexpr double kStep = 1.0005;  // ratio of neighbouring frequencies
+constexpr double kLowest = 0.1;      // of the search [rad/s]
+constexpr double kStep = 1.0005;     // ratio of neighbouring frequencies
+constexpr std::size_t kStride = 16;  // steps that are passed over where nothing happens
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 /// L(jw).
@@ -27,36 +29,64 @@ Complex open_loop(const motion::Gains& gains, const hal::mujoco::AxisParams& axi
   return servo * hold * input * velocity_loop / (1.0 + velocity_loop) / s;
 }
 
+/// Whether the closed loop follows by more than -3 dB.
+bool follows(const Complex& loop) {
+  return std::abs(loop / (1.0 + loop)) >= std::numbers::sqrt2 / 2.0;
+}
+
+/// Whether the phase passes -180 deg between two frequencies.
+bool passes_reversal(const Complex& before, const Complex& now) {
+  return before.imag() < 0.0 && now.imag() >= 0.0 && now.real() < 0.0;
+}
+
+bool passes_one(const Complex& before, const Complex& now) {
+  return std::abs(before) >= 1.0 && std::abs(now) < 1.0;
+}
+
+/// Takes up what happens between two neighbouring frequencies of the search.
+void take_step(const Complex& before, const Complex& now, double w, LoopMargins& margins) {
+  if (margins.crossover_Hz == 0.0 && passes_one(before, now)) {
+    margins.crossover_Hz = w / kTwoPi;
+    // A lag beyond 180 deg has wrapped around to a phase above 0.
+    const double phase = std::arg(now) * 360.0 / kTwoPi;
+    margins.phase_margin_deg = phase > 0.0 ? phase - 180.0 : phase + 180.0;
+  }
+  if (margins.gain_margin == 0.0 && passes_reversal(before, now)) {
+    margins.gain_margin = 1.0 / std::abs(now);
+  }
+  if (follows(before) && !follows(now)) {
+    margins.bandwidth_Hz = w / kTwoPi;
+  }
+}
+
 }  // namespace
 
 LoopMargins loop_margins(const motion::Gains& gains, const hal::mujoco::AxisParams& axis,
                          double period) {
   LoopMargins margins;
   margins.phase_margin_deg = 180.0;
+  const auto at = [&](double w) { return open_loop(gains, axis, period, w); };
   const double highest = std::numbers::pi / period;
   double w = kLowest;
-  Complex before = open_loop(gains, axis, period, w);
-  bool has_crossed = false;
-  for (w *= kStep; w < highest; w *= kStep) {
-    const Complex now = open_loop(gains, axis, period, w);
-    if (!has_crossed && std::abs(before) >= 1.0 && std::abs(now) < 1.0) {
-      has_crossed = true;
-      margins.crossover_Hz = w / kTwoPi;
-      // A lag beyond 180 deg has wrapped around to a phase above 0.
-      const double phase = std::arg(now) * 360.0 / kTwoPi;
-      margins.phase_margin_deg = phase > 0.0 ? phase - 180.0 : phase + 180.0;
+  Complex before = at(w);
+  while (w * kStep < highest) {
+    // Strides first; only where something happens within one, its steps.
+    std::array<double, kStride> steps{};
+    std::size_t count = 0;
+    for (double next = w * kStep; count < kStride && next < highest; next *= kStep) {
+      steps[count++] = next;
     }
-    if (margins.gain_margin == 0.0 && before.imag() < 0.0 && now.imag() >= 0.0 &&
-        now.real() < 0.0) {
-      margins.gain_margin = 1.0 / std::abs(now);
+    const Complex far = at(steps[count - 1]);
+    if (passes_one(before, far) || passes_reversal(before, far) ||
+        follows(before) != follows(far)) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const Complex now = i + 1 == count ? far : at(steps[i]);
+        take_step(before, now, steps[i], margins);
+        before = now;
+      }
     }
-    const auto follows = [](const Complex& loop) {
-      return std::abs(loop / (1.0 + loop)) >= std::numbers::sqrt2 / 2.0;
-    };
-    if (follows(before) && !follows(now)) {
-      margins.bandwidth_Hz = w / kTwoPi;
-    }
-    before = now;
+    before = far;
+    w = steps[count - 1];
   }
   if (margins.gain_margin == 0.0) {
     margins.gain_margin = INFINITY;

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/units.hpp"
+
 namespace twin::config {
 namespace {
 
@@ -96,6 +98,32 @@ Expected<void> check_jerk(const MachineFile& machine) {
   return {};
 }
 
+/// Refuses a limit of a single axis that all but forbids the axis to move. @param least  as for the
+/// limit of the whole path, in the unit of the key, of which `scale` are a base unit
+Expected<void> check_axis_limit(std::string_view key, const Vec3& limit, double scale,
+                                double least) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double value = scale * limit[i];
+    if (value > 0.0 && value < least) {
+      return fail(ErrorCode::kFile,
+                  fmt::format("limits.{} is {:g} in {}: expected 0, which is no limit of its own, "
+                              "or at least {:g}",
+                              key, value, "xyz"[i], least));
+    }
+  }
+  return {};
+}
+
+Expected<void> check_axis_limits(const Limits& limits) {
+  return check_axis_limit("axis_feedrate_mm_per_min", limits.axis_feedrate,
+                          units::mm_per_min_from_mm_per_s(1.0), 1.0)
+      .and_then([&] {
+        return check_axis_limit("axis_acceleration_mm_per_s2", limits.axis_acceleration, 1.0, 1.0);
+      })
+      .and_then(
+          [&] { return check_axis_limit("axis_jerk_mm_per_s3", limits.axis_jerk, 1.0, 1.0); });
+}
+
 }  // namespace
 
 Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>& given) {
@@ -126,6 +154,7 @@ Expected<void> check_rules(const MachineFile& machine) {
                               l.travel_min[i], l.travel_max[i], "xyz"[i]));
     }
   }
+  TWIN_CHECK(check_axis_limits(l));
   const std::string& ignored = machine.program.ignored_axes;
   if (ignored.find_first_not_of("ABCUVWabcuvw") != std::string::npos) {
     return fail(ErrorCode::kFile, fmt::format("program.ignored_axes is '{}': expected letters of A "

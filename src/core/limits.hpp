@@ -59,6 +59,9 @@ struct PlanningModel {
   double kf = 0.1;                ///< velocity feedforward gain Kf, 0 <= Kf < 1 [-]
   double circular_error = 0.005;  ///< circular contouring error eps_ss of Eq. 4 [mm]
   double corner_error = 0.01;     ///< corner error eps_max of Eqs. 1, 16 [mm]
+  double critical_feedrate =
+      50.0;  ///< V of Eq. 2 with planner = certified; the paper's planner has
+             ///< the programmed feedrate there [mm/s]
   FeedrateRule feedrate_rule = FeedrateRule::kAuto;
   double tool_radius = 0.0;              ///< for kContactSpeed [mm]
   ToolSide tool_side = ToolSide::kLeft;  ///< for kContactSpeed

@@ -23,9 +23,12 @@ inline constexpr std::array<std::string_view, 4> kDialectNames{"auto", "linuxcnc
 /// How NC programs are read: section [program] of the machine file.
 struct ProgramSettings {
   Dialect dialect = Dialect::kAuto;
-  std::string ignored_axes;       ///< letters of "ABCUVW" whose words are left out
-  double default_feedrate = 0.0;  ///< for feed moves before the first F; 0: none [mm/s]
+  std::string ignored_axes;                 ///< letters of "ABCUVW" whose words are left out
+  double default_feedrate = 1000.0 / 60.0;  ///< for feed moves without an F; 0: none [mm/s]
+  std::string parameters;         ///< values of parameters at a program's start; empty: none
   Vec3 workpiece = Vec3::Zero();  ///< where the origin of a program's coordinates lies [mm]
+  Vec3 start = Vec3::Zero();      ///< where the machine stands when a program begins [mm]
+  bool lifts_start = true;        ///< above that, if the program begins with a rapid across
   std::string tool_table;         ///< file with lengths and diameters of tools; empty: none
   bool skips_deleted = true;      ///< lines that begin with '/' are left out
   int most_lines = 20'000'000;  ///< that loops and calls execute again before the program is ended

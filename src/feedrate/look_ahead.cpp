@@ -107,6 +107,11 @@ void LookAhead::append_phases(double begin, double end, std::size_t& next,
 void LookAhead::append_limits(double begin, double end, std::size_t& next,
                               PlannedSegment& planned) const {
   const std::vector<LimitZone>& zones = window_.zones;
+  std::size_t last = next;
+  while (last < zones.size() && zones[last].begin < end) {
+    ++last;
+  }
+  planned.limits.reserve(last - next + 2);
   for (; next < zones.size() && zones[next].end <= end + kPlaceRounding; ++next) {
     planned.limits.push_back(part_of(zones[next], begin, end));
   }

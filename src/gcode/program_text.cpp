@@ -52,13 +52,13 @@ struct FileState {
   }
 };
 
-constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyz0123456789-_";
+constexpr const char* kNameCharacters = "abcdefghijklmnopqrstuvwxyzO0123456789-_";
 
 /// The file of a subprogram in the first folder that has one. A link may not lead out of the folder.
 Expected<std::optional<fs::path>> find_subprogram(const std::vector<fs::path>& folders,
                                                   const std::string& name) {
   for (const fs::path& folder : folders) {
-    for (const char* ending : {".ngc", ".nc"}) {
+    for (const char* ending : {".ngc", ".nc", ".NGC", ".NC"}) {
       std::error_code code;
       const fs::path file = folder / (name + ending);
       if (!fs::exists(file, code)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,6 +69,9 @@ T value_of(Expected<T> result) {
   }
   return *std::move(result);
 }
+
+/// Makes a folder if it is missing.
+Expected<void> make_folder(const std::filesystem::path& folder);
 
 inline void check(Expected<void> result) {
   if (!result) {

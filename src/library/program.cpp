@@ -2,11 +2,18 @@
 #include <filesystem>
 
 #include "config/find_file.hpp"
+#include "core/atomic_file.hpp"
 #include "library/inside.hpp"
 #include "runtime/program_check.hpp"
 #include "runtime/run_options.hpp"
 
 namespace twin {
+
+Expected<void> make_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  return code ? file_error(folder, "make this folder", code.value()) : Expected<void>{};
+}
 
 Program::Program(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 

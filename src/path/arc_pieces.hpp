@@ -25,4 +25,8 @@ namespace twin::path {
 double append_arc_pieces(const Arc& arc, double from, double to, double s0,
                          std::vector<geometry::SpanCubic>& pieces);
 
+/// The same of a curve. The error of a span is twice the largest distance that places in it show.
+double append_curve_pieces(const FittedCurve& curve, double from, double to, double s0,
+                           std::vector<geometry::SpanCubic>& pieces);
+
 }  // namespace twin::path

@@ -20,8 +20,12 @@ constexpr double kWidest = 4.0;
 /// leaves more corners sharp, a smaller one makes bumps whose curvature allows next to no feedrate.
 constexpr double kLeastPace = 0.02;
 
-constexpr double kNoJump = 1e-10;       // of C' [-] and C'' [1/mm]
-constexpr double kArcDeviation = 1e-5;  // of an arc's pieces [mm]
+constexpr double kNoJump = 1e-10;  // of C' [-] and C'' [1/mm]
+/// The same at a NURBS of the program [-], [1/mm]. A period at 200 mm/s sees 0.2 um/s and 4 mm/s^2 of
+/// them. Smaller ones would replace exact curves by pieces for nothing.
+constexpr double kNoTurnOfCurve = 1e-6;
+constexpr double kNoBendOfCurve = 1e-4;
+constexpr double kArcDeviation = 1e-5;  // of the pieces of an arc or a NURBS [mm]
 
 /// Share of the tolerance that bump and base path use. The rest is for set points that pass a
 /// vertex between two periods: they tell its place no more exactly. A larger share makes corners
@@ -58,6 +62,13 @@ void Joiner::take_block(const Vec3& from, const Vec3& to, double begin, double e
 void Joiner::take_arc(const Arc& arc, double begin) {
   begin_element(Kind::kArc, begin, begin + arc.length);
   under_way_.arc = arc;
+  join_to_last();
+  end_element();
+}
+
+void Joiner::take_curve(FittedCurve&& curve, double begin) {
+  begin_element(Kind::kCurve, begin, begin + curve.arc_length.length());
+  under_way_.curve = std::move(curve);
   join_to_last();
   end_element();
 }
@@ -133,6 +144,10 @@ PathPoint Joiner::base_point(const Element& element, ElementEnd end) {
   if (element.kind == Kind::kArc) {
     return point_at(element.arc, is_last ? element.arc.length : 0.0);
   }
+  if (element.kind == Kind::kCurve) {
+    const geometry::Curve& curve = element.curve.curve;
+    return point_from(curve.derivatives(is_last ? curve.u_max() : curve.u_min()));
+  }
   const geometry::SpanCubic& cubic =
       is_last ? element.spans.back().cubic : element.spans.front().cubic;
   const geometry::SpanCubic there =
@@ -142,7 +157,8 @@ PathPoint Joiner::base_point(const Element& element, ElementEnd end) {
 
 /// Bound of the base path's distance from the program over a stretch [mm].
 double Joiner::deviation(const Element& element, double begin, double end) {
-  double largest = element.kind == Kind::kArc ? kArcDeviation : 0.0;
+  const bool is_replaced = element.kind == Kind::kArc || element.kind == Kind::kCurve;
+  double largest = is_replaced ? kArcDeviation : 0.0;
   for (std::size_t i = element.spans.begin_index(); i < element.spans.end_index(); ++i) {
     const Span& span = element.spans[i];
     if (span.cubic.end > begin && span.cubic.begin < end) {
@@ -161,7 +177,9 @@ void Joiner::join_to_last() {
   const PathPoint end = base_point(before_, ElementEnd::kLast);
   const PathPoint begin = base_point(under_way_, ElementEnd::kFirst);
   geometry::CornerBump bump{begin.tangent - end.tangent, begin.curvature - end.curvature};
-  const bool has_jump = bump.turn.norm() > kNoJump || bump.bend.norm() > kNoJump;
+  const bool is_curve = before_.kind == Kind::kCurve || under_way_.kind == Kind::kCurve;
+  const bool has_jump = bump.turn.norm() > (is_curve ? kNoTurnOfCurve : kNoJump) ||
+                        bump.bend.norm() > (is_curve ? kNoBendOfCurve : kNoJump);
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
   if (bump.turn.norm() > kNoJump && join_by_passage(width)) {
@@ -285,6 +303,11 @@ void Joiner::append_pieces(const Element& element, double begin, double end) {
                       pieces_);
     return;
   }
+  if (element.kind == Kind::kCurve) {
+    append_curve_pieces(element.curve, begin - element.begin, end - element.begin, element.begin,
+                        pieces_);
+    return;
+  }
   double from = begin;
   const std::size_t first = pieces_.size();
   for (std::size_t i = element.spans.begin_index(); i < element.spans.end_index(); ++i) {
@@ -321,6 +344,12 @@ void Joiner::emit_body(Element& element, double end) {
     writer_.arc(is_whole ? element.arc
                          : part_of(element.arc, element.from - element.begin, end - element.begin),
                 element.from, end);
+  } else if (element.kind == Kind::kCurve) {
+    const bool is_whole = element.from == element.begin && end == element.end;
+    writer_.curve(is_whole
+                      ? std::move(element.curve)
+                      : part_of(element.curve, element.from - element.begin, end - element.begin),
+                  element.from, end);
   } else if (element.kind == Kind::kLine &&
              (element.passage > 0.0 ||
               length >= std::min(kMergedLine, element.end - element.begin))) {

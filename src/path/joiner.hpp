@@ -15,12 +15,13 @@
 
 namespace twin::path {
 
-/// Joins lines, arcs and smoothed runs with continuous tangent and curvature.
+/// Joins lines, arcs, smoothed runs and NURBS of the program with continuous tangent and curvature.
 ///
 /// A corner is rounded by adding a bump to the path (geometry::CornerBump). The bump is as wide as
 /// the tolerance allows, but not wider than kWidest or than half of the element on either side.
-/// Within the bump an arc is replaced by cubic pieces (append_arc_pieces). Outside, lines and arcs
-/// are exact.
+/// Within the bump an arc or a NURBS is replaced by cubic pieces (append_arc_pieces,
+/// append_curve_pieces). Outside, lines, arcs and NURBS are exact. A joint of a NURBS that is smooth
+/// but for rounding, and for decimals that the feedrate does not feel, is left as it is.
 ///
 /// With CornerKind::kPassage and JerkOf::kVector a corner between two lines becomes a passage, a
 /// motion in time (corner/corner_fit.hpp), where that loses less time.
@@ -29,7 +30,7 @@ namespace twin::path {
 /// does one where the jerk of single axes lets a stop at the corner lose less time than the way
 /// through the bump (path/passage.hpp).
 ///
-/// Elements (lines, arcs, runs) come in order, with the length of the base path at their ends; a
+/// Elements (lines, arcs, runs, pieces of a NURBS) come in order, with the length of the base path at their ends; a
 /// run comes span by span. An element is given to the writer as soon as the corner at its end is
 /// rounded. A long run is given earlier, apart from the spans that the corner at its end may
 /// change.
@@ -50,6 +51,7 @@ class Joiner : public geometry::RunSink {
   void take_block(const Vec3& from, const Vec3& to, double begin, double end) override;
   void end_run() override;
   void take_arc(const Arc& arc, double begin);
+  void take_curve(FittedCurve&& curve, double begin);
   /// Gives everything that is left to the writer. The path ends there, without a rounded corner.
   void finish();
 
@@ -59,7 +61,7 @@ class Joiner : public geometry::RunSink {
     double deviation;
   };
   enum class ElementEnd : std::uint8_t { kFirst, kLast };
-  enum class Kind : std::uint8_t { kNone, kLine, kArc, kRun };
+  enum class Kind : std::uint8_t { kNone, kLine, kArc, kRun, kCurve };
   struct Element {
     Kind kind = Kind::kNone;
     double begin = 0.0;  // length of the base path at its begin [mm]
@@ -70,6 +72,7 @@ class Joiner : public geometry::RunSink {
     double passage = 0.0;  // feedrate of the passage at its begin; 0: there is none [mm/s]
     Line line;
     Arc arc;
+    FittedCurve curve;
     geometry::SlidingVector<Span> spans;
   };
 

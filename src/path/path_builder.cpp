@@ -49,16 +49,24 @@ Segment make_segment(const gcode::Block& block, std::int64_t number, const Limit
   return segment;
 }
 
-std::vector<Segment> make_nurbs_segments(const gcode::Block& block, std::int64_t number,
-                                         int most_spans, const Limits& limits,
-                                         const PlanningModel& model) {
+std::vector<FittedCurve> make_nurbs_curves(const gcode::Block& block, int most_spans) {
   constexpr int kSmooth = 2;  // derivatives that are continuous
-  std::vector<Segment> segments;
+  std::vector<FittedCurve> curves;
   for (geometry::Curve& piece : geometry::split(block.nurbs->curve, {kSmooth, most_spans})) {
     FittedCurve given;
     given.curve = std::move(piece);
     given.is_programmed = true;
     measure(given);
+    curves.push_back(std::move(given));
+  }
+  return curves;
+}
+
+std::vector<Segment> make_nurbs_segments(const gcode::Block& block, std::int64_t number,
+                                         int most_spans, const Limits& limits,
+                                         const PlanningModel& model) {
+  std::vector<Segment> segments;
+  for (FittedCurve& given : make_nurbs_curves(block, most_spans)) {
     Segment segment = make_curve_segment(std::move(given));
     set_demands(segment, block, limits, model);
     segment.marks.push_back({segment.length, segment.length, number, block.line});

@@ -43,8 +43,11 @@ class PathBuilder : public Builder {
 Segment make_segment(const gcode::Block& block, std::int64_t number, const Limits& limits,
                      const PlanningModel& model);
 
-/// Segments of a NURBS: pieces of at most `most_spans` spans, cut where the curvature jumps or the
-/// tangent turns.
+/// A NURBS in pieces of at most `most_spans` spans, cut where the curvature jumps or the tangent
+/// turns.
+std::vector<FittedCurve> make_nurbs_curves(const gcode::Block& block, int most_spans);
+
+/// The same as segments.
 std::vector<Segment> make_nurbs_segments(const gcode::Block& block, std::int64_t number,
                                          int most_spans, const Limits& limits,
                                          const PlanningModel& model);

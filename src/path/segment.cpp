@@ -1,6 +1,9 @@
 #include "path/segment.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "geometry/nurbs/refine.hpp"
 
 namespace twin::path {
 PathPoint point_at(const Line& line, double s) noexcept {
@@ -31,6 +34,32 @@ Arc make_arc(const geometry::Arc& geometry) noexcept {
 Arc part_of(const Arc& arc, double from, double to) noexcept {
   return make_arc(part_of(arc.geometry, fraction_at(arc.geometry, from, arc.length),
                           fraction_at(arc.geometry, to, arc.length)));
+}
+
+PathPoint point_at(const FittedCurve& curve, double s) noexcept {
+  return point_from(curve.curve.derivatives(curve.arc_length.u_at(curve.curve, s, s)));
+}
+
+FittedCurve part_of(const FittedCurve& curve, double from, double to) {
+  const auto u_at = [&](double s) {
+    return std::clamp(curve.arc_length.u_at(curve.curve, s, s), curve.curve.u_min(),
+                      curve.curve.u_max());
+  };
+  const double u0 = u_at(from);
+  const double u1 = u_at(to);
+  const auto degree = static_cast<std::size_t>(curve.curve.degree());
+  std::vector<double> knots(degree + 1, u0);
+  for (const double knot : curve.curve.knots()) {
+    if (knot > u0 && knot < u1) {
+      knots.push_back(knot);
+    }
+  }
+  knots.insert(knots.end(), degree + 1, u1);
+  FittedCurve part;
+  part.curve = geometry::refine(curve.curve, std::move(knots));
+  part.is_programmed = curve.is_programmed;
+  measure(part);
+  return part;
 }
 
 void measure(FittedCurve& fitted) { fitted.arc_length.build(fitted.curve, &fitted.curvature); }

@@ -69,6 +69,9 @@ PathPoint point_at(const Line& line, double s) noexcept;
 /// Point of an arc at arc length s in [0, length].
 PathPoint point_at(const Arc& arc, double s) noexcept;
 
+/// Point of a curve at arc length s in [0, length].
+PathPoint point_at(const FittedCurve& curve, double s) noexcept;
+
 /// Converts derivatives with respect to a curve's parameter to those with respect to arc length.
 PathPoint point_from(const geometry::Derivatives& at) noexcept;
 
@@ -80,6 +83,9 @@ Arc part_of(const Arc& arc, double from, double to) noexcept;
 
 /// Computes arc_length and curvature of a curve that was just fitted.
 void measure(FittedCurve& fitted);
+
+/// The part of a measured curve between the arc lengths `from` and `to`, measured itself [mm].
+FittedCurve part_of(const FittedCurve& curve, double from, double to);
 
 /// Makes a segment from a curve after measure(): geometry, length and both ends.
 Segment make_curve_segment(FittedCurve&& fitted);

@@ -172,6 +172,10 @@ void SegmentWriter::passage(const CornerMotion& passage, double begin, double en
   exact(std::move(segment), begin, end);
 }
 
+void SegmentWriter::curve(FittedCurve&& curve, double begin, double end) {
+  exact(make_curve_segment(std::move(curve)), begin, end);
+}
+
 void SegmentWriter::whole(Segment&& segment) {
   flush();
   emit(std::move(segment));

@@ -57,6 +57,8 @@ class SegmentWriter {
   void arc(const Arc& arc, double begin, double end);
   /// Appends the passage of a corner between two lines; begin and end as for line().
   void passage(const CornerMotion& passage, double begin, double end);
+  /// Appends a NURBS of the program; begin and end as for line().
+  void curve(FittedCurve&& curve, double begin, double end);
   /// Appends a segment that is complete and has its own marks.
   void whole(Segment&& segment);
   /// Ends the current curve, because the path is not smooth here.

@@ -152,15 +152,37 @@ void SmoothBuilder::push_arc(const gcode::Block& block, std::int64_t number) {
   joiner_.take_arc(arc, begin);
 }
 
+void SmoothBuilder::push_nurbs(const gcode::Block& block, std::int64_t number) {
+  end_lines();
+  auto curves = make_nurbs_curves(block, settings_.max_segments);
+  double length = 0.0;
+  for (const FittedCurve& curve : curves) {
+    length += curve.arc_length.length();
+  }
+  BlockDemand demand = demand_of(block, length, number);
+  joiner_.set_demands(corner_tolerance(block.tolerance), demand.feedrate);
+  double begin = length_;
+  length_ += length;
+  demand.end = length_;
+  writer_.add_block(demand);
+  for (FittedCurve& curve : curves) {
+    const double end = begin + curve.arc_length.length();
+    joiner_.take_curve(std::move(curve), begin);
+    begin = end;
+  }
+}
+
 void SmoothBuilder::push(const gcode::Block& block) {
   const std::int64_t number = next_block_++;
-  if (block.motion == gcode::Motion::kNurbs) {
+  const bool is_exact_stop = block.path_mode == gcode::PathMode::kExactStop;
+  if (block.motion == gcode::Motion::kNurbs && !is_exact_stop) {
+    push_nurbs(block, number);
+  } else if (block.motion == gcode::Motion::kNurbs) {
     for (Segment& segment :
          make_nurbs_segments(block, number, settings_.max_segments, limits_, model_)) {
       emit_whole(std::move(segment));
     }
-  } else if (block.motion == gcode::Motion::kDwell ||
-             block.path_mode == gcode::PathMode::kExactStop) {
+  } else if (block.motion == gcode::Motion::kDwell || is_exact_stop) {
     emit_whole(make_segment(block, number, limits_, model_));
   } else if (block.motion == gcode::Motion::kArc) {
     push_arc(block, number);

@@ -69,6 +69,7 @@ class SmoothBuilder : public Builder {
   void emit_line(LineBlock& line);
   void end_lines();
   void push_arc(const gcode::Block& block, std::int64_t number);
+  void push_nurbs(const gcode::Block& block, std::int64_t number);
   void emit_whole(Segment&& segment);
   Segment rest_at_start() const;
 

@@ -54,6 +54,7 @@ struct Request {
   std::string folder;
   bool keeps_trace = true;
   bool is_wall_clock = false;
+  std::string trace_files = "csv";
 };
 
 Outcome run_program(const Program& program, const Settings& settings, const Request& request,
@@ -69,6 +70,7 @@ Outcome run_program(const Program& program, const Settings& settings, const Requ
     options.overrides.push_back({time, percent});
   }
   options.folder = request.folder;
+  options.trace_files = request.trace_files;
   options.is_wall_clock = request.is_wall_clock;
   options.servo = servo;
   std::atomic<bool> stop{false};
@@ -178,17 +180,18 @@ void bind_run(py::module_& module) {
       [](const Program& program, const Settings& settings, std::string hal,
          std::vector<std::string> faults, std::vector<std::pair<double, double>> overrides,
          std::string folder, bool keep_trace, bool wall_clock,
-         const std::shared_ptr<SharedPanel>& panel, const py::object& servo) {
+         const std::shared_ptr<SharedPanel>& panel, const py::object& servo,
+         std::string trace_files) {
         return run(program, settings,
                    {std::move(hal), std::move(faults), std::move(overrides), std::move(folder),
-                    keep_trace, wall_clock},
+                    keep_trace, wall_clock, std::move(trace_files)},
                    panel, servo);
       },
       py::arg("program"), py::arg("settings"), py::kw_only(), py::arg("hal") = "mujoco",
       py::arg("faults") = std::vector<std::string>(),
       py::arg("overrides") = std::vector<std::pair<double, double>>(), py::arg("folder") = "",
       py::arg("keep_trace") = true, py::arg("wall_clock") = false, py::arg("panel") = nullptr,
-      py::arg("servo") = py::none());
+      py::arg("servo") = py::none(), py::arg("trace_files") = "csv");
 }
 
 }  // namespace twin::python

@@ -26,6 +26,46 @@ void bind_studies(py::module_& module) {
         return py::make_tuple(made.text, made.table);
       },
       py::arg("program"), py::arg("settings"), py::arg("dialect"));
+  module.def(
+      "write_report",
+      [](const std::vector<std::string>& folders, const std::string& file,
+         const std::vector<Program>& programs) {
+        attended([] {},
+                 [&] {
+                   write_report(folders, file, programs);
+                   return 0;
+                 });
+      },
+      py::arg("folders"), py::arg("file"), py::arg("programs"));
+  module.def(
+      "tune",
+      [](std::vector<std::string> programs, std::string machine,
+         const std::optional<double>& feedrate, const std::optional<double>& within_um,
+         double gain_margin_dB, double phase_margin_deg, std::vector<std::string> ranges,
+         std::vector<std::string> further, std::size_t trials, std::uint32_t seed, unsigned workers,
+         std::string store, std::string folder) {
+        std::atomic<bool> stop{false};
+        const TuneOptions options{.programs = std::move(programs),
+                                  .machine = std::move(machine),
+                                  .feedrate = feedrate,
+                                  .is_for_time = within_um.has_value(),
+                                  .largest_error = within_um.value_or(0.0),
+                                  .gain_margin_dB = gain_margin_dB,
+                                  .phase_margin_deg = phase_margin_deg,
+                                  .ranges = std::move(ranges),
+                                  .further_programs = std::move(further),
+                                  .trials = trials,
+                                  .seed = seed,
+                                  .workers = workers,
+                                  .store = std::move(store),
+                                  .folder = std::move(folder),
+                                  .stop = &stop};
+        const Tuned found = attended([&] { stop = true; }, [&] { return tune(options); });
+        return py::make_tuple(found.table, found.json, found.machine_file);
+      },
+      py::arg("programs"), py::arg("machine"), py::arg("feedrate_mm_per_s"), py::arg("within_um"),
+      py::arg("gain_margin_dB"), py::arg("phase_margin_deg"), py::arg("ranges"), py::arg("further"),
+      py::arg("trials"), py::arg("seed"), py::arg("workers"), py::arg("store"), py::arg("folder"));
 }
 
 }  // namespace twin::python

@@ -63,11 +63,31 @@ void bind_trace(py::module_& module) {
                                }
                                return py::tuple(names);
                              })
+      .def_property_readonly("units",
+                             [](const MemoryTrace& trace) {
+                               py::dict units;
+                               for (const TraceColumn& column : trace.header().columns) {
+                                 if (!column.unit.empty() && column.unit != "1") {
+                                   units[py::str(column.name)] = column.unit;
+                                 }
+                               }
+                               return units;
+                             })
       .def_property_readonly("period_s",
                              [](const MemoryTrace& trace) { return trace.header().period; })
       .def_property_readonly("rows", &MemoryTrace::size)
       .def_property_readonly("is_complete", &MemoryTrace::is_complete)
-      .def("write_csv", &write_csv, py::arg("folder"), py::call_guard<py::gil_scoped_release>());
+      .def("write_csv", &write_csv, py::arg("folder"), py::call_guard<py::gil_scoped_release>())
+      .def("write_hdf5", &write_hdf5, py::arg("program"), py::arg("settings"), py::arg("summary"),
+           py::arg("folder"), py::call_guard<py::gil_scoped_release>());
+  module.def(
+      "read_trace",
+      [](const std::string& file) {
+        auto trace = std::make_shared<MemoryTrace>();
+        read_trace(file, *trace);
+        return trace;
+      },
+      py::arg("file"), py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace twin::python

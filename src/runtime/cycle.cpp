@@ -43,6 +43,12 @@ Cycle::Cycle(motion::Interpolator& interpolator, hal::Machine* machine,
   }
 }
 
+void Cycle::stand_at(const Vec3& place) noexcept {
+  origin_ = place.head<2>();
+  is_shifted_ = origin_ != Vec2::Zero();
+  set_point_.position = place;
+}
+
 hal::Status Cycle::read(double interval) noexcept {
   interval_ = interval;
   return machine_ == nullptr ? hal::Status::kOk : machine_->read(inputs_);
@@ -84,13 +90,13 @@ void Cycle::keep_in_travel(const motion::SetPoint& last) noexcept {
 
 Vec2 Cycle::position_of_counts() const noexcept {
   const auto& scale = machine_->info().mm_per_count;
-  return {motion::position_from_counts(inputs_.counts[hal::kX], scale[hal::kX]),
-          motion::position_from_counts(inputs_.counts[hal::kY], scale[hal::kY])};
+  return shifted({motion::position_from_counts(inputs_.counts[hal::kX], scale[hal::kX]),
+                  motion::position_from_counts(inputs_.counts[hal::kY], scale[hal::kY])});
 }
 
 Vec2 Cycle::true_position() const noexcept {
   const hal::Truth truth = machine_->truth();
-  return {truth.table_position[hal::kX], truth.table_position[hal::kY]};
+  return shifted({truth.table_position[hal::kX], truth.table_position[hal::kY]});
 }
 
 /// Takes the drive commands of the caller's own loops; a trip where there are none.
@@ -120,6 +126,10 @@ void Cycle::close_loops() noexcept {
   table_ = measured_;
   outputs_.position_reference = {set_point_.position.x(), set_point_.position.y(),
                                  set_point_.position.z()};
+  if (is_shifted_) {
+    outputs_.position_reference[hal::kX] -= origin_.x();
+    outputs_.position_reference[hal::kY] -= origin_.y();
+  }
   if (servo_ != nullptr) {
     ask_servo();
     return;
@@ -170,7 +180,7 @@ bool Cycle::write() noexcept {
   const hal::MachineInfo& info = machine_->info();
   if (info.has_truth && !info.follows_reference) {
     const hal::Truth truth = machine_->truth();
-    table_ = {truth.table_position[hal::kX], truth.table_position[hal::kY]};
+    table_ = shifted({truth.table_position[hal::kX], truth.table_position[hal::kY]});
     torque_ = {truth.motor_torque[hal::kX], truth.motor_torque[hal::kY]};
     friction_ = {truth.friction_force[hal::kX], truth.friction_force[hal::kY]};
   }

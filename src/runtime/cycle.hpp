@@ -42,6 +42,9 @@ class Cycle {
         const motion::SafetySettings& safety = {}, const Limits& limits = {},
         Servo* servo = nullptr);
 
+  /// Says where the machine stands before the first period: its counters begin at 0 there [mm].
+  void stand_at(const Vec3& place) noexcept;
+
   /// Reads the inputs of the machine. Real-time safe.
   /// @param interval  time since the last read [s]
   hal::Status read(double interval) noexcept;
@@ -87,6 +90,10 @@ class Cycle {
   void switch_off() noexcept;
 
  private:
+  /// Measured places are from where the machine began; the program's are not.
+  Vec2 shifted(const Vec2& measured) const noexcept {
+    return is_shifted_ ? Vec2(measured + origin_) : measured;
+  }
   Vec2 position_of_counts() const noexcept;
   Vec2 true_position() const noexcept;
   void close_loops() noexcept;
@@ -109,6 +116,8 @@ class Cycle {
   hal::Inputs inputs_{};
   hal::Outputs outputs_{};
   motion::SetPoint set_point_{};
+  Vec2 origin_ = Vec2::Zero();  // place at which the counters begin [mm]
+  bool is_shifted_ = false;     // it is not 0
   Vec2 measured_ = Vec2::Zero();
   Vec2 torque_ = Vec2::Zero();    // of the motors, if the machine tells it [N.m]
   Vec2 friction_ = Vec2::Zero();  // of the slides, if the machine tells it [N]

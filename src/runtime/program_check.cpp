@@ -8,6 +8,7 @@
 
 #include "core/stop_wish.hpp"
 #include "gcode/block.hpp"
+#include "gcode/start.hpp"
 #include "results/metrics/block_distance.hpp"
 
 namespace twin::runtime {
@@ -123,7 +124,7 @@ Expected<ProgramFigures> check_program(const gcode::ProgramText& program,
                                        const gcode::ReaderOptions& options, const Limits& limits,
                                        const std::atomic<bool>* stop) {
   gcode::Reader reader(program, options);
-  TravelCheck check(program.file().string(), options.start, limits);
+  TravelCheck check(program.file().string(), gcode::start_of(program, options), limits);
   TWIN_CHECK(check_rest(reader, check, stop));
   ProgramFigures figures = check.figures();
   figures.lines = reader.line();
@@ -137,7 +138,7 @@ Expected<Estimate> estimate_program(const gcode::ProgramText& program,
                                     const std::atomic<bool>* stop,
                                     const std::function<bool(feedrate::PlannedSegment&&)>& listen) {
   gcode::Reader reader(program, options);
-  TravelCheck check(program.file().string(), options.start, machine.limits);
+  TravelCheck check(program.file().string(), gcode::start_of(program, options), machine.limits);
   Estimate estimate;
   const auto sink = [&](feedrate::PlannedSegment&& planned) {
     estimate.is_whole = estimate.is_whole && (!listen || listen(std::move(planned)));

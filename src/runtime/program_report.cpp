@@ -8,6 +8,7 @@
 
 #include "core/stop_wish.hpp"
 #include "gcode/reader.hpp"
+#include "gcode/start.hpp"
 
 namespace twin::runtime {
 namespace {
@@ -135,7 +136,7 @@ Expected<ProgramReport> report_program(const gcode::ProgramText& program,
                                        const std::atomic<bool>* stop) {
   ProgramReport report;
   gcode::Reader reader(program, options);
-  TravelCheck check(program.file().string(), options.start, machine.limits);
+  TravelCheck check(program.file().string(), gcode::start_of(program, options), machine.limits);
   ToolWatch watch(report);
   const auto plan = plan_program(
       reader, machine,

@@ -33,14 +33,20 @@ Recorder::Recorder(const Options& options, BlockSource blocks)
 /// Opens the files and begins the trace in every sink.
 Expected<void> Recorder::begin() {
   std::vector<TraceSink*> sinks;
-  const bool has_files = !options_.directory.empty() && options_.has_trace;
-  if (has_files) {
+  const results::TraceFiles files =
+      options_.directory.empty() ? results::TraceFiles::kNone : options_.trace;
+  if (results::has_csv(files)) {
     csv_ = std::make_unique<results::CsvTrace>(options_.directory, options_.durability);
     sinks.push_back(csv_.get());
   }
+  if (results::has_hdf5(files)) {
+    hdf5_ = std::make_unique<results::Hdf5Trace>(options_.directory, options_.origin,
+                                                 options_.durability);
+    sinks.push_back(hdf5_.get());
+  }
   sinks.insert(sinks.end(), options_.sinks.begin(), options_.sinks.end());
   TWIN_CHECK(sinks_.begin(sinks, results::trace_header(columns_, options_.period)));
-  if (has_files) {
+  if (files != results::TraceFiles::kNone) {
     TWIN_TRY(limit_, results::LimitWriter::create(options_.directory / "plots"));
   }
   return {};
@@ -219,6 +225,12 @@ void Recorder::summarise(results::Summary& summary) {
     run.realtime = timing_.figures();
   }
   summary.run = run;
+}
+
+void Recorder::describe(const results::Summary& summary) {
+  if (hdf5_) {
+    hdf5_->set_summary(results::to_reproducible_json(summary));
+  }
 }
 
 Expected<void> Recorder::commit() {

@@ -19,7 +19,9 @@
 #include "results/metrics/summary.hpp"
 #include "results/trace/columns.hpp"
 #include "results/trace/csv_trace.hpp"
+#include "results/trace/hdf5_trace.hpp"
 #include "results/trace/limit_writer.hpp"
+#include "results/trace/trace_files.hpp"
 #include "runtime/cycle_timing.hpp"
 #include "runtime/shared_blocks.hpp"
 #include "runtime/trace_sinks.hpp"
@@ -35,9 +37,10 @@ class Recorder {
  public:
   struct Options {
     std::filesystem::path directory;  ///< of the results, which exists; empty: no file is written
-    bool has_trace = true;            ///< whether trace.csv is one of them
-    std::vector<TraceSink*> sinks;    ///< get the rows besides trace.csv
-    results::ColumnChoice columns;    ///< of the trace; empty: those of its layout
+    results::TraceFiles trace = results::TraceFiles::kCsv;  ///< as which files the trace is written
+    results::TraceOriginTexts origin{};                     ///< what an HDF5 trace says of its run
+    std::vector<TraceSink*> sinks;                          ///< get the rows besides the files
+    results::ColumnChoice columns;  ///< of the trace; empty: those of its layout
     Limits limits;
     double period = 0.001;                        ///< [s]
     bool has_machine = true;                      ///< else only set points are recorded
@@ -56,6 +59,8 @@ class Recorder {
   /// Puts the figures of the samples so far into a summary.
   void summarise(results::Summary& summary);
 
+  /// Hands the summary to the files that hold it beside the rows.
+  void describe(const results::Summary& summary);
   /// Gives the files their names, or leaves them named as partial.
   Expected<void> commit();
   void abandon() noexcept;
@@ -90,6 +95,7 @@ class Recorder {
   std::deque<bool> rapids_;       // whether each block is one, from first_rapid_ on
   std::int64_t first_rapid_ = 0;  // number of the block rapids_.front()
   std::unique_ptr<results::CsvTrace> csv_;
+  std::unique_ptr<results::Hdf5Trace> hdf5_;
   TraceSinks sinks_;
   std::vector<double> rows_;  // not handed to the sinks yet (rows x columns)
   std::optional<results::LimitWriter> limit_;

@@ -25,6 +25,8 @@
 #include "runtime/run_planning.hpp"
 #include "runtime/shared_blocks.hpp"
 
+#include "gcode/start.hpp"
+
 namespace twin::runtime {
 namespace {
 
@@ -78,6 +80,7 @@ class Run {
                request.machine.safety, request.machine.limits, request.servo),
         feed_(interpolator_, planning_->supply(), planning_->replanning(), panel_,
               feed_options(request, first_percent_)) {
+    cycle_.stand_at(gcode::start_of(request.program, reader_options(request)));
     if (outlook.is_kept) {
       planner_.preload(std::move(outlook.segments), *outlook.plan);
       blocks.drop_first();
@@ -241,6 +244,9 @@ results::Summary Run::summarise(double wall_time, const std::optional<Error>& fa
   summary.version = version();
   summary.command = request_.command;
   summary.program_sha256 = request_.program.sha256();
+  for (const gcode::ProgramText& text : request_.program.subprograms()) {
+    summary.subprograms.emplace_back(text.file().filename().string(), text.sha256());
+  }
   if (request_.program.has_changed()) {
     summary.notes.push_back(
         fmt::format("{} has changed since it was read; this run is of the program as it was then",
@@ -306,6 +312,7 @@ Expected<RunResult> Run::execute() {
   result.met_at = motion_.met_at;
   result.rest_at = motion_.rest_at;
   result.summary = summarise(wall_time, result.failure);
+  recorder_.describe(result.summary);
   if (!result.failure) {
     if (auto saved = recorder_.commit(); !saved) {
       result.failure = std::move(saved).error();

@@ -18,6 +18,7 @@
 #include "motion/safety/trip.hpp"
 #include "results/metrics/summary.hpp"
 #include "results/trace/columns.hpp"
+#include "results/trace/trace_files.hpp"
 #include "runtime/motion.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
@@ -37,8 +38,8 @@ struct RunTask {
 
 /// Where the results of a run go.
 struct RunOutput {
-  std::filesystem::path directory;              ///< made when missing; empty: no file is written
-  bool has_trace = true;                        ///< whether the rows go to trace.csv
+  std::filesystem::path directory;  ///< made when missing; empty: no file is written
+  results::TraceFiles trace = results::TraceFiles::kCsv;  ///< as which files the trace is written
   std::vector<TraceSink*> sinks;                ///< get the rows of the trace, besides the files
   results::ColumnChoice columns;                ///< of the trace; empty: the default ones
   Durability durability = Durability::kSynced;  ///< of the trace
@@ -79,7 +80,7 @@ struct RunRequest : RunTask, RunOutput, RunConduct, RunListeners {
 /// What a run has recorded, and how it ended.
 struct RunResult {
   results::Summary summary;
-  /// Why the run ended early. The trace until then is kept in trace.partial.csv.
+  /// Why the run ended early. The trace until then is kept in trace.partial.csv, or as HDF5.
   std::optional<Error> failure;
   std::optional<motion::Trip> trip;  ///< the monitor's finding, if a monitor ended the run
   std::optional<Vec2> met_at;        ///< measured position where `until` came true [mm]

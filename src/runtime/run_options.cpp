@@ -3,6 +3,16 @@
 namespace twin::runtime {
 namespace {
 
+/// What an HDF5 trace says of its run.
+results::TraceOriginTexts origin_of(const RunRequest& request) {
+  if (!results::has_hdf5(request.trace)) {
+    return {};
+  }
+  return {.program = request.program.file().filename().string(),
+          .program_sha256 = request.program.sha256(),
+          .settings = config::to_toml(request.machine)};
+}
+
 constexpr double kRestAfter = 0.1;  // at the path's end, before the machine is switched off [s]
 
 }  // namespace
@@ -20,6 +30,9 @@ gcode::ReaderOptions reader_options(const config::MachineFile& machine,
   options.workpiece = program.workpiece;
   options.tool_table = program.tool_table;
   options.default_feedrate = program.default_feedrate;
+  options.parameters = program.parameters;
+  options.start = program.start;
+  options.lifts_start = program.lifts_start;
   options.largest_feedrate = machine.limits.feedrate;
   options.most_lines = program.most_lines;
   return options;
@@ -57,7 +70,8 @@ WallClockPace::Options wall_clock_options(const RunRequest& request) {
 
 Recorder::Options recorder_options(const RunRequest& request) {
   return {.directory = request.directory,
-          .has_trace = request.has_trace,
+          .trace = request.trace,
+          .origin = origin_of(request),
           .sinks = request.sinks,
           .columns = request.columns,
           .limits = request.machine.limits,

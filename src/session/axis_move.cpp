@@ -20,6 +20,7 @@ Expected<runtime::RunResult> make_axis_move(const AxisMove& move,
   request.hal = &hal;
   request.until = move.until;
   request.command = move.command;
+  request.trace = move.trace;
   const std::string text =
       fmt::format("G01 {:c}{:.6f} F{:.6f}\nM30\n", move.axis == hal::kX ? 'X' : 'Y', move.distance,
                   units::mm_per_min_from_mm_per_s(move.feedrate));

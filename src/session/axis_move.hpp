@@ -22,6 +22,7 @@ struct AxisMove {
   std::filesystem::path folder;  ///< of its results; empty: renders/rig_NAME
   std::string command{};         ///< command line of the caller, for the summary
   runtime::Until until{};        ///< ends it early; empty: nothing does
+  results::TraceFiles trace = results::TraceFiles::kCsv;  ///< as which files its trace is written
 };
 
 /// Makes the move and leaves program, trace and summary in the folder of the results.

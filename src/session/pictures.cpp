@@ -9,20 +9,12 @@
 #include "config/machine_file.hpp"
 #include "pictures/plot/figures.hpp"
 #include "pictures/video/video.hpp"
-#include "results/trace/columns.hpp"
+#include "results/trace/trace_files.hpp"
 #include "runtime/run_options.hpp"
 #include "session/outline.hpp"
 
 namespace twin::session {
 namespace {
-
-bool is_newer(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code no_a;
-  std::error_code no_b;
-  const auto time_a = std::filesystem::last_write_time(a, no_a);
-  const auto time_b = std::filesystem::last_write_time(b, no_b);
-  return !no_a && (no_b || time_a > time_b);
-}
 
 std::string text_of(const nlohmann::json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
@@ -46,8 +38,8 @@ gcode::ReaderOptions reading_of(const nlohmann::json& summary) {
 
 Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
   TraceOrigin origin;
-  origin.is_partial = is_newer(folder / results::kPartialTraceName, folder / results::kTraceName);
-  origin.trace = folder / (origin.is_partial ? results::kPartialTraceName : results::kTraceName);
+  origin.trace = results::find_trace(folder);
+  origin.is_partial = results::is_partial_trace(origin.trace.filename().string());
   const auto file = folder / (origin.is_partial ? "summary.partial.json" : "summary.json");
   std::ifstream in(file);
   if (!in) {
@@ -71,8 +63,8 @@ Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (!std::filesystem::exists(origin.trace, ignored)) {
     return tl::unexpected(Error{ErrorCode::kFile,
-                                "holds no trace.csv; is this the folder of a run?", folder.string(),
-                                0, 0});
+                                "holds no trace.csv and no trace.h5; is this the folder of a run?",
+                                folder.string(), 0, 0});
   }
   origin.kind = time != json.end() ? TraceKind::kRun : TraceKind::kPlan;
   return origin;

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -45,21 +46,26 @@ Expected<void> write_summary(const std::filesystem::path& folder,
                           results::to_json(result.summary));
 }
 
-void remove_stale_results(const std::filesystem::path& folder, Results results, Trace trace) {
-  std::vector<const char*> names{"video.mp4", "report.html"};
-  if (results == Results::kWhole) {
-    names.insert(names.end(), {"trace.partial.csv", "summary.partial.json"});
-  } else {
-    names.insert(names.end(), {"trace.csv", "summary.json"});
-  }
-  if (trace == Trace::kNone) {
-    names.push_back("trace.csv");
-  }
+void remove_stale_results(const std::filesystem::path& folder, Results how,
+                          results::TraceFiles trace) {
+  using namespace results;
+  std::vector<std::string_view> names{"video.mp4", "report.html"};
+  const bool is_whole = how == Results::kWhole;
+  names.emplace_back(is_whole ? "summary.partial.json" : "summary.json");
+  const auto add_unless = [&names](bool is_written, std::string_view name) {
+    if (!is_written) {
+      names.push_back(name);
+    }
+  };
+  add_unless(is_whole && has_csv(trace), kTraceName);
+  add_unless(is_whole && has_hdf5(trace), kHdf5TraceName);
+  add_unless(!is_whole && has_csv(trace), kPartialTraceName);
+  add_unless(!is_whole && has_hdf5(trace), kPartialHdf5TraceName);
   std::error_code ignored;
-  for (const char* name : names) {
+  for (const std::string_view name : names) {
     std::filesystem::remove(folder / name, ignored);
   }
-  if (results == Results::kWhole && trace == Trace::kWritten) {
+  if (is_whole && trace != TraceFiles::kNone) {
     return;
   }
   for (const auto& plot : std::filesystem::directory_iterator(folder / "plots", ignored)) {

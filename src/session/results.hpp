@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "results/trace/trace_files.hpp"
 #include "runtime/run.hpp"
 
 /// The files that a run leaves in its folder, but for trace and pictures.
@@ -21,11 +22,9 @@ Expected<void> write_summary(const std::filesystem::path& folder, const runtime:
 
 /// Whether a run has come to the end of its program.
 enum class Results { kWhole, kPartial };
-/// Whether a run has left a trace.
-enum class Trace { kWritten, kNone };
-
 /// Removes the files of an earlier run in the folder that this run does not make again, so that
 /// they do not pass for its own.
-void remove_stale_results(const std::filesystem::path& folder, Results results, Trace trace);
+void remove_stale_results(const std::filesystem::path& folder, Results how,
+                          results::TraceFiles trace);
 
 }  // namespace twin::session

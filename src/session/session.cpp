@@ -33,6 +33,15 @@ bool Session::is_on_wall_clock() const noexcept {
   return request_.pace == Pace::kWallClock || (hal_ != nullptr && hal_->info().keeps_own_time);
 }
 
+std::filesystem::path Session::trace_file() const {
+  const bool is_hdf5 = request_.trace == results::TraceFiles::kHdf5;
+  if (is_partial_) {
+    return request_.folder /
+           (is_hdf5 ? results::kPartialHdf5TraceName : results::kPartialTraceName);
+  }
+  return request_.folder / (is_hdf5 ? results::kHdf5TraceName : results::kTraceName);
+}
+
 std::string Session::title() const {
   const std::string name = program().filename().string();
   return request_.feedrate ? fmt::format("{}, {:g} mm/min", name,
@@ -48,7 +57,7 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   run.feedrate = request_.feedrate;
   run.directory = request_.files == Files::kWritten ? request_.folder : std::filesystem::path();
   run.sinks = request_.sinks;
-  run.has_trace = request_.has_trace;
+  run.trace = request_.trace;
   if (!request_.columns.empty()) {
     TWIN_TRY(run.columns,
              results::choose_columns(
@@ -75,16 +84,15 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   }
   is_partial_ = result.failure.has_value();
   remove_stale_results(request_.folder, result.failure ? Results::kPartial : Results::kWhole,
-                       request_.has_trace ? Trace::kWritten : Trace::kNone);
+                       request_.trace);
   TWIN_CHECK(write_summary(request_.folder, result));
   return result;
 }
 
 Expected<void> Session::draw_figures() const {
-  return session::draw_figures(
-      {request_.folder, request_.program, title(),
-       hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun,
-       std::string(is_partial_ ? results::kPartialTraceName : results::kTraceName)});
+  return session::draw_figures({request_.folder, request_.program, title(),
+                                hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun,
+                                trace_file().filename().string()});
 }
 
 Expected<void> Session::write_report() const {
@@ -95,8 +103,8 @@ Expected<void> Session::write_report() const {
 
 Expected<void> Session::render_video(const std::string& camera,
                                      std::function<void(double)> progress) const {
-  return session::render_video(
-      {request_.folder, request_.machine.table.model, title(), camera, std::move(progress)});
+  return session::render_video({request_.folder, request_.machine.table.model, title(), camera,
+                                std::move(progress), trace_file().filename().string()});
 }
 
 }  // namespace twin::session

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
+#include "results/trace/trace_files.hpp"
 #include "runtime/operator_panel.hpp"
 #include "runtime/override_schedule.hpp"
 #include "runtime/run.hpp"
@@ -49,7 +50,8 @@ struct Request {
   std::filesystem::path folder;    ///< folder of the results; empty: renders/NAME of the program
   Files files = Files::kWritten;
   std::vector<TraceSink*> sinks{};  ///< get the rows of the trace, besides the files
-  bool has_trace = true;            ///< whether the rows go to trace.csv where files are written
+  /// As which files the trace is written, where files are.
+  results::TraceFiles trace = results::TraceFiles::kCsv;
   std::string columns{};   ///< of the trace, as choose_columns() takes them; empty: default
   Servo* servo = nullptr;  ///< position loops in place of the machine file's; may be null
   Pace pace = Pace::kOwn;
@@ -73,7 +75,7 @@ struct Attendance {
 /// A program and its machine, ready to run.
 ///
 ///   open()           makes the machine
-///   run()            plans, moves, writes trace.csv and summary.json
+///   run()            plans, moves, writes trace and summary.json
 ///   draw_figures()   draws the plots of the trace
 ///   write_report()   writes report.html, the page of the run
 ///   render_video()   renders video.mp4 from the trace
@@ -90,6 +92,8 @@ class Session {
   hal::Machine* hal() const noexcept { return hal_; }
   /// Whether each period of the cycle takes a period of the wall clock.
   bool is_on_wall_clock() const noexcept;
+  /// The trace that run() has left, if it was to leave one; of two files the CSV.
+  std::filesystem::path trace_file() const;
   /// Title of the pictures: "dolphin.nc, 3000 mm/min".
   std::string title() const;
 

@@ -15,7 +15,7 @@ namespace twin {
 /// How a machine is identified.
 struct IdentifyOptions {
   /// Which columns of the traces are which signal, "SIGNAL=COLUMN[:UNIT],..." as --columns has it;
-  /// empty: those of trace.csv.
+  /// empty: those of a trace of `twin run`.
   std::string columns{};
   std::vector<std::string> fixed{};  ///< keys that keep their value, with their unit or without
   std::vector<std::string> freed{};  ///< keys that are fitted though they would be held

@@ -75,8 +75,10 @@ struct OverrideChange {
 struct RunOptions {
   /// Sinks that get the rows of the trace. They must outlive the run.
   std::vector<TraceSink*> sinks{};
-  /// Folder for trace.csv and summary.json, the files that `twin run` writes. Empty: no files.
+  /// Folder for trace and summary.json, the files that `twin run` writes. Empty: no files.
   std::string folder{};
+  /// Files of the trace in that folder: "csv", "hdf5", "both" or "none".
+  std::string trace_files = "csv";
   /// True: each period of the controller takes one period of the wall clock. False: the periods
   /// follow each other as fast as they can be computed. A machine that keeps its own time
   /// (MachineInfo::keeps_own_time) is always run on the wall clock.
@@ -119,5 +121,14 @@ struct Run {
 ///         cannot be written after it
 TWIN_EXPORT Run run(const Program& program, const Settings& settings, Machine& machine,
                     const RunOptions& options = {});
+
+/// Writes a trace to the file FOLDER/trace.h5, byte for byte as `twin run --trace hdf5` does. The
+/// trace of a run that ended early becomes trace.partial.h5.
+///
+/// @param summary  what Summary::json() gives of the run
+/// @throws Failure if the file cannot be written
+TWIN_EXPORT void write_hdf5(const MemoryTrace& trace, const Program& program,
+                            const Settings& settings, const std::string& summary,
+                            const std::string& folder);
 
 }  // namespace twin

@@ -23,6 +23,8 @@ struct TraceColumn {
   };
   std::string name;  ///< name with its unit, as in "x_cmd_mm"
   Kind kind = Kind::kReal;
+  std::string unit{};       ///< as UCUM writes it, as in "mm/s"; "1" for a plain number
+  std::string long_name{};  ///< what it is, as in "set point of x"
 };
 
 /// Description of a trace, given before its first row.
@@ -108,5 +110,10 @@ class TWIN_EXPORT CsvTrace final : public TraceSink {
   struct Data;
   std::unique_ptr<Data> data_;
 };
+
+/// Reads a trace from a file, CSV or HDF5 by its content. All columns are real numbers without units,
+/// and the period is the difference of the first two times of the column "t_s", if there are any.
+/// @throws Failure that names file, line or row
+TWIN_EXPORT void read_trace(const std::string& file, TraceSink& sink);
 
 }  // namespace twin

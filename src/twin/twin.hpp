@@ -9,6 +9,7 @@
 #include "twin/machines.hpp"
 #include "twin/plan.hpp"
 #include "twin/program.hpp"
+#include "twin/report.hpp"
 #include "twin/run.hpp"
 #include "twin/servo.hpp"
 #include "twin/set_point.hpp"
@@ -16,4 +17,5 @@
 #include "twin/studies.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
+#include "twin/tune.hpp"
 #include "twin/video.hpp"

@@ -15,7 +15,7 @@ struct VideoOptions {
   std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; may be empty
 };
 
-/// Renders FOLDER/video.mp4 from what a run has left in a folder, trace.csv and summary.json: the
+/// Renders FOLDER/video.mp4 from what a run has left in a folder, trace and summary.json: the
 /// table moves as long as it did, the pen draws its trace in the colours of the contour error. The
 /// video is written whole or not at all.
 ///

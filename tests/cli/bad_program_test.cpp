@@ -66,7 +66,38 @@ TEST_F(BadProgram, UnknownCode) {
   expect_refused("G01 X1 A90 F600\n", "bad.nc:1:8", "A");
 }
 
-TEST_F(BadProgram, NoFeedrate) { expect_refused("G01 X1\n", "bad.nc:1", "no feedrate"); }
+TEST_F(BadProgram, NoFeedrate) {
+  // The machine file's default holds, which is noted; without one the move is refused.
+  folder.put("bad.nc", "G01 X1\n");
+  const auto noted = twin({"check", "bad.nc"});
+  EXPECT_EQ(noted.status, 0) << noted.err;
+  EXPECT_THAT(noted.err, ::testing::HasSubstr("no F yet: 1000 mm/min of program.default_feedrate"));
+  const auto refused = twin({"check", "bad.nc", "--set", "program.default_feedrate=0"});
+  EXPECT_EQ(refused.status, 1) << refused.err;
+  EXPECT_THAT(refused.err, ::testing::HasSubstr("bad.nc:1:5: G01 has no feedrate"));
+}
+
+TEST_F(BadProgram, EveryErrorComesBeforeTheNotes) {
+  folder.put("bad.nc", "G41 D3 G00 X1 Q2\nG40\nG01 X2 W5 F600\nG02 X4 Y0 I1\nG01 X3 M41\n");
+  const auto result = twin({"check", "bad.nc"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, ::testing::HasSubstr("bad.nc is refused: 2 errors"));
+  EXPECT_LT(result.err.find("bad.nc:3:8"), result.err.find("note: "));
+  EXPECT_LT(result.err.find("note: "), result.err.find("is refused"));
+}
+
+TEST_F(BadProgram, ParametersOfTheMachineAreGivenBySettings) {
+  folder.put("bad.nc", "G00 X#<_hal[a.b-c]> F#<_hal[d]>\n");
+  const auto refused = twin({"check", "bad.nc"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err, ::testing::HasSubstr("bad.nc:1:6: #<_hal[a.b-c]> is known to "));
+  const auto given = twin({"check", "bad.nc", "--json", "--set",
+                           "program.parameters=_hal[a.b-c]=3.5, #<_hal[d]> = 60"});
+  EXPECT_EQ(given.status, 0) << given.err;
+  EXPECT_THAT(given.out, ::testing::HasSubstr("3.5"));
+  EXPECT_THAT(twin({"check", "bad.nc", "--set", "program.parameters=a5"}).err,
+              ::testing::HasSubstr("program.parameters has 'a5': expected #NUMBER=VALUE"));
+}
 
 TEST_F(BadProgram, ZeroFeedrate) { expect_refused("G01 X1 F0\n", "bad.nc:1:8", "F0"); }
 

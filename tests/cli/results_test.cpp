@@ -140,6 +140,30 @@ TEST_F(Results, TraceStartsAndEndsAtRestOnThePathsEnds) {
   EXPECT_NEAR(t.back(), summary["machining_time_s"].get<double>(), 1e-9);
 }
 
+TEST_F(Results, BeginWhereTheMachineStands) {
+  folder.put("ok.nc", "G01 X12 Y5 F600\nX12 Y7\nM2\n");
+  for (const std::string hal : {"mujoco", "ideal"}) {
+    const Json summary = run("run", hal, {"--set", "program.start_mm=[10, 5, 0]", "--hal", hal});
+    const test::TraceRows rows(folder / (hal + "/trace.csv"));
+    EXPECT_NEAR(summary["path_length_mm"].get<double>(), 4.0, 0.05);
+    EXPECT_NEAR(rows.column("x_cmd_mm").front(), 10.0, 1e-3);
+    EXPECT_NEAR(rows.column("x_enc_mm").front(), 10.0, 1e-3);
+    EXPECT_NEAR(rows.column("y_enc_mm").front(), 5.0, 1e-3);
+    EXPECT_NEAR(rows.column("y_table_mm").front(), 5.0, 0.02);  // the table is off its encoder
+    EXPECT_NEAR(rows.last("y_table_mm"), 7.0, 0.02);
+    EXPECT_LT(summary["contour_error_um"]["max"].get<double>(), 100.0);
+  }
+}
+
+TEST_F(Results, NameTheFilesOfSubprograms) {
+  folder.put("slot.ngc", "o<slot> sub\nG01 X5 F600\no<slot> endsub\n");
+  folder.put("ok.nc", "o<slot> call\nG01 X0\nM2\n");
+  const Json summary = run("plan", "out");
+  ASSERT_EQ(summary["subprograms"].size(), 1U);
+  EXPECT_EQ(summary["subprograms"][0]["file"], "slot.ngc");
+  EXPECT_EQ(summary["subprograms"][0]["sha256"], test::text_of(folder / "slot.ngc").sha256());
+}
+
 TEST_F(Results, SummaryIsThatOfTheTrace) {
   const Json summary = run("run", "out");
   const test::TraceRows rows(folder / "out/trace.csv");

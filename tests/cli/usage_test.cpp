@@ -114,7 +114,7 @@ TEST_F(Usage, SettingThatIsMisspeltIsNamedWithTheNearestKey) {
 
 TEST_F(Usage, CheckTellsOfEveryProgramOnItsOwnLine) {
   folder.put("bad.nc", "G77\n");
-  folder.put("worse.nc", "G01 X1\n");
+  folder.put("worse.nc", "G01 X1 F0\n");
   const auto result = twin({"check", "bad.nc", "ok.nc", "worse.nc"});
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;

@@ -81,6 +81,17 @@ TEST(MachineFile, RefusalsNamePlaceValueUnitAndRange) {
   EXPECT_THAT(refusal("[table]\nmodel = 3\n"), HasSubstr("is not a text"));
 }
 
+TEST(MachineFile, ALimitThatKeepsAnAxisFromMovingIsRefused) {
+  EXPECT_THAT(refusal("[limits]\naxis_jerk_mm_per_s3 = [0, 0.5, 0]\n"),
+              HasSubstr("limits.axis_jerk_mm_per_s3 is 0.5 in y: expected 0, which is no limit of "
+                        "its own, or at least 1"));
+  EXPECT_THAT(refusal("[limits]\naxis_feedrate_mm_per_min = [0.25, 0, 0]\n"),
+              HasSubstr("limits.axis_feedrate_mm_per_min is 0.25 in x"));
+  EXPECT_THAT(refusal("[limits]\naxis_acceleration_mm_per_s2 = [0, 0, 1e-9]\n"),
+              HasSubstr("limits.axis_acceleration_mm_per_s2 is 1e-09 in z"));
+  EXPECT_EQ(parsed("[limits]\naxis_jerk_mm_per_s3 = [0, 1, 0]\n").limits.axis_jerk.y(), 1.0);
+}
+
 TEST(MachineFile, UnknownNamesSuggestTheNearest) {
   EXPECT_EQ(refusal("[limits]\naccelration_mm_per_s2 = 1\n"),
             "desk.toml:2:1: unknown key accelration_mm_per_s2 in [limits]; did you mean "

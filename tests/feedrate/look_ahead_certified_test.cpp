@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
+#include "path/smooth_builder.hpp"
 #include "tests/support/blocks.hpp"
 #include "tests/support/motion_profile.hpp"
 #include "tests/support/plan.hpp"
@@ -78,6 +80,45 @@ TEST(LookAheadCertified, AHigherLimitNeverMakesAPathSlower) {
       jerk *= 1.8;
     }
   }
+}
+
+TEST(LookAheadCertified, AHigherFeedrateNeverMakesAPathSlower) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 100; ++i) {
+    PlanSettings settings = certified();
+    settings.limits.feedrate = 1000.0;
+    std::vector<path::Segment> segments;
+    path::SmoothBuilder builder(
+        settings.path, settings.model, settings.limits,
+        [&](path::Segment&& segment) { segments.push_back(std::move(segment)); });
+    for (const gcode::Block& block : random_program(random, 20)) {
+      builder.push(block);
+    }
+    builder.finish();
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 12; ++k) {
+      const double time = plan(segments, settings).time;
+      EXPECT_LE(time, before * kSlower) << "program " << i << " scaled " << k << " times";
+      before = time;
+      for (path::Segment& segment : segments) {
+        segment.feedrate *= 1.35;
+      }
+    }
+  }
+}
+
+// The circle of Eqs. 2 to 6: at 297 mm/s its normal acceleration reaches A.
+TEST(LookAheadCertified, ACircleIsNoSlowerBeyondTheFeedrateAtWhichItIsCritical) {
+  PlanSettings settings = certified();
+  settings.limits.feedrate = 1000.0;
+  const auto time_at = [&](double feedrate) {
+    return plan({test::arc_block({0, 0, 0}, {1, 0, 0}, 36.0, 2.0 * std::numbers::pi, true,
+                                 feedrate)},
+                settings)
+        .time;
+  };
+  EXPECT_LE(time_at(300.0), time_at(17800.0 / 60.0) * kSlower);
+  EXPECT_NEAR(time_at(300.0), 0.932, 0.001);
 }
 
 TEST(LookAheadCertified, ALineTakesAsLongInAnyNumberOfPieces) {

@@ -36,6 +36,7 @@ Drawn drawn(std::vector<gcode::Block> blocks, double scale, Planner planner) {
   settings.path.chord_error *= scale;
   settings.path.short_block_length *= scale;
   settings.model.circular_error *= scale;
+  settings.model.critical_feedrate *= scale;
   settings.model.corner_error *= scale;
   settings.limits.feedrate *= scale;
   settings.limits.rapid_feedrate *= scale;

@@ -36,32 +36,41 @@ constexpr std::string_view kSeeds[] = {
     "%\nO1 (main)\nG0\n#100=1\nWHILE[#100LT4]DO1\nX#100\n#100=#100+1\nEND1\n"
     "IF[#100EQ4]THEN#2=3\nN5 IF[#2GT9]GOTO6\n#2=#2+3\nGOTO5\nN6 M98 P2 L3\nM30\nO2\nG91X1\n"
     "M99\n%\n",
+    "G0@10^30F100\nG91G81@1^60R1Z-1L3\nG90G80\nM70\nG20G55G91F1\nM72\n(c)o1 sub\nM73\nG91X1\n"
+    "o1 endsub\no1 callsub\nM71\nM41P1\nF#<_hal[a.b]>\nX EXISTS[#5]Y1\nF0\nM2\n",
+    "O1\nG65P9A1B2X3\nG66P9Y4\nG0X1\nG67\nX#1Y#0\nIF[#1EQ#0]GOTO7\nN7X5\nM30\nO9\nG0Y#25\nX[#1+#24]"
+    "\n"
+    "IF[#2NE#0]THEN#100=#2\nM99\n",
     "\xEF\xBB\xBFg0 x1;end\rg1 y2 f100 (c)\rg80\rg40 g49 g54 g94\rg1 x3 t1 m6\rm2\r",
 };
 
 constexpr std::string_view kFragments[] = {
-    "#1=[",     "#<a>",      "o1 endwhile\n",
-    "o1 if",    "GOTO5",     "END1\n",
-    "M98P2",    "M99\n",     "O2\n",
-    "**",       "ATAN[1]/[", "EXISTS[#<a>]",
-    "o2 call",  "o2 sub\n",  "N5",
-    "G2",       "G3 I1",     "R-1",
-    "X",        "1e9",       "999999999999",
-    "-",        ".",         "(",
-    ")",        ";",         "%",
-    "\n%\n",    "/",         "\r",
-    "\n",       "\r\n",      "#1",
-    "[",        "nan",       "inf",
-    "G80",      "M30",       "G91",
-    "G20",      "G4 P1",     "F0",
-    "I0 J0",    "K3",        "G64P",
-    "\xFF",     "E",         "G1 F1 X0",
-    "G5.2",     "G5.3",      "G6.2",
-    "L3",       "P4",        "K1\nK1\nK1\n",
-    "X1 Y1\n",  "R9",        "G6.3",
-    "G41.1D1",  "G40",       "G81",
-    "G10L20P1", "G43H2",     "G92Z0",
-    "G68R30",   "P3",        "G28",
+    "#1=[",     "#<a>",       "o1 endwhile\n",
+    "o1 if",    "GOTO5",      "END1\n",
+    "M98P2",    "M99\n",      "O2\n",
+    "**",       "ATAN[1]/[",  "EXISTS[#<a>]",
+    "o2 call",  "o2 sub\n",   "N5",
+    "G2",       "G3 I1",      "R-1",
+    "X",        "1e9",        "999999999999",
+    "-",        ".",          "(",
+    ")",        ";",          "%",
+    "\n%\n",    "/",          "\r",
+    "\n",       "\r\n",       "#1",
+    "[",        "nan",        "inf",
+    "G80",      "M30",        "G91",
+    "G20",      "G4 P1",      "F0",
+    "I0 J0",    "K3",         "G64P",
+    "\xFF",     "E",          "G1 F1 X0",
+    "G5.2",     "G5.3",       "G6.2",
+    "L3",       "P4",         "K1\nK1\nK1\n",
+    "X1 Y1\n",  "R9",         "G6.3",
+    "G41.1D1",  "G40",        "G81",
+    "G10L20P1", "G43H2",      "G92Z0",
+    "G68R30",   "P3",         "G28",
+    "@2",       "^45",        "M70\n",
+    "M72\n",    "M73\n",      "G65P9A1\n",
+    "G66P9\n",  "G67",        "#0",
+    "M41",      "#<_hal[a]>", "F0",
 };
 
 void mutate(std::string& text, Random& random) {

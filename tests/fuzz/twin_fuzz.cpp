@@ -15,7 +15,7 @@
 #include <iterator>
 #include <thread>
 
-#include "tests/fuzz/chain/known_defects.hpp"
+#include "tests/fuzz/chain/outcome.hpp"
 #include "tests/fuzz/minimise.hpp"
 #include "tests/fuzz/random_statistics.hpp"
 #include "tests/fuzz/target.hpp"
@@ -25,6 +25,7 @@
 //   twin_fuzz findings FOLDER     each file of FOLDER/TARGET through its target
 //   twin_fuzz show TARGET FILE    what a file means
 //   twin_fuzz random COUNT SEED [FIRST]   random programs through the whole chain
+//                                 (TWIN_FUZZ_EACH=1: each broken promise with its program, too)
 //   twin_fuzz minimise FILE TEXT  smaller bytes for the chain with a finding that says TEXT still
 //   twin_fuzz bytes NUMBER SEED   the bytes of one of them, to standard output
 namespace twin::fuzz {
@@ -89,10 +90,21 @@ int show_file(std::string_view name, const fs::path& file) {
   return 2;
 }
 
+/// Whether each broken promise is printed as it is found.
+bool says_each() {
+  static const bool says = std::getenv("TWIN_FUZZ_EACH") != nullptr;
+  return says;
+}
+
 void follow_random(RandomStatistics& statistics, std::uint64_t seed, std::uint64_t number) {
-  Case made = make_case(random_bytes(seed, number));
-  pass_by_known_defects(made);
-  statistics.add(number, made, examine(made, number % 16 == 0));
+  const Case made = make_case(random_bytes(seed, number));
+  const Outcome outcome = examine(made, number % 16 == 0);
+  statistics.add(number, made, outcome);
+  if (says_each()) {
+    for (const Breach& breach : outcome.findings) {
+      fmt::print(stderr, "program {}: {}\n", number, to_string(breach));
+    }
+  }
 }
 
 /// Random programs in as many threads as there are cores, with an eye on each.

@@ -78,6 +78,8 @@ TEST(Expression, FunctionsInDegrees) {
   EXPECT_EQ(value_of("ROUND[-2.5]"), -3.0);
   EXPECT_EQ(value_of("EXISTS[#<longname>]"), 1.0);
   EXPECT_EQ(value_of("EXISTS[#<other>]"), 0.0);
+  EXPECT_EQ(value_of("EXISTS[#5]"), 1.0);
+  EXPECT_EQ(value_of("EXISTS[#5603]"), 0.0);
 }
 
 TEST(Expression, FanucRoundsByMagnitudeAndCountsTheCircleFromZero) {
@@ -112,7 +114,8 @@ TEST(Expression, FaultsSayWhereAndWhat) {
             "1: 'FOO' is no function: expected ABS, ACOS, ASIN, ATAN, COS, "
             "EXISTS, EXP, FIX, FUP, LN, ROUND, SIN, SQRT or TAN");
   EXPECT_EQ(fault_of("ATAN[1]"), "8: ATAN: the line ends where / is expected");
-  EXPECT_EQ(fault_of("EXISTS[#5]"), "9: EXISTS: expected <, found '5]'");
+  EXPECT_EQ(fault_of("EXISTS[5]"), "8: EXISTS: expected #, found '5]'");
+  EXPECT_EQ(fault_of("EXISTS[#a]"), "9: EXISTS: expected <, found 'a]'");
   EXPECT_EQ(fault_of(std::string(60, '[')),
             "51: the value is nested too deep: expected at most 50 levels");
 }

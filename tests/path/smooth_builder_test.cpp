@@ -157,5 +157,63 @@ TEST(SmoothBuilder, RestsAtDwells) {
   expect_marks(segments, 22);
 }
 
+/// A cubic with one span through four control points.
+gcode::Block cubic_block(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  gcode::Block block;
+  block.motion = gcode::Motion::kNurbs;
+  block.start = a;
+  block.end = d;
+  block.feedrate = 50.0;
+  block.nurbs = *gcode::make_programmed_curve(
+      *geometry::Curve::create(3, {0, 0, 0, 0, 1, 1, 1, 1}, {a, b, c, d}));
+  return block;
+}
+
+std::vector<Vec3> points_of_curves(const std::vector<gcode::Block>& blocks) {
+  std::vector<Vec3> points;
+  for (const gcode::Block& block : blocks) {
+    for (int i = 0; i <= 4000; ++i) {
+      points.push_back(block.nurbs ? block.nurbs->curve.position(i / 4000.0)
+                                   : Vec3(block.start + i / 4000.0 * (block.end - block.start)));
+    }
+  }
+  return points;
+}
+
+// Kinks of a thousandth of a degree, corners, and a line between two of them.
+TEST(SmoothBuilder, JointsOfNurbsAreRoundedWithinTheToleranceLikeAnyCorner) {
+  const std::vector<gcode::Block> blocks{
+      cubic_block({0, 0, 0}, {2, 0, 0}, {4, 1, 0}, {6, 1, 0}),
+      cubic_block({6, 1, 0}, {8, 1.0001, 0}, {9, 3, 0}, {9, 5, 0}),
+      cubic_block({9, 5, 0}, {11, 5, 0}, {12, 6, 1}, {14, 6, 1}),
+      test::line_block({14, 6, 1}, {14, 12, 1}),
+      cubic_block({14, 12, 1}, {12, 14, 1}, {10, 14, 0}, {8, 13, 0})};
+  const auto segments = test::smooth(blocks);
+  const auto program = points_of_curves(blocks);
+  test::expect_smooth_joints(segments);
+  test::expect_marks(segments, 5);
+  std::vector<Vec3> path;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    EXPECT_TRUE(!segments[i].stops_at_end) << "segment " << i;
+    EXPECT_LE(segments[i].deviation, 0.01);
+    for (const Vec3& p : test::path_points(segments[i])) {
+      EXPECT_LE(test::distance_to_polyline(p, program), segments[i].deviation + 1e-6);
+      path.push_back(p);
+    }
+  }
+  for (std::size_t i = 0; i < program.size(); i += 25) {
+    EXPECT_LE(test::distance_to_polyline(program[i], path), 0.01);
+  }
+}
+
+TEST(SmoothBuilder, ANurbsThatIsNotJoinedStaysAsItIs) {
+  const auto block = cubic_block({0, 0, 0}, {2, 0, 0}, {4, 1, 0}, {6, 1, 0});
+  const auto segments = test::smooth({block});
+  ASSERT_EQ(segments.size(), 1U);
+  const auto& curve = std::get<FittedCurve>(segments[0].geometry);
+  EXPECT_TRUE(curve.is_programmed);
+  EXPECT_EQ(curve.curve.control_points(), block.nurbs->curve.control_points());
+}
+
 }  // namespace smooth_builder_test
 }  // namespace twin::path

@@ -41,3 +41,32 @@ def test_the_package_is_the_command_too():
         [sys.executable, "-m", "twin", "--version"], stdout=subprocess.PIPE, text=True, check=True
     ).stdout
     assert "twin" in said
+
+
+def test_tune_finds_better_gains_and_goes_on_from_its_store(tmp_path):
+    (tmp_path / "short.nc").write_text("G21 G90\nG1 X4 F3000\nY3\nG0 X0 Y0\nM30\n")
+    options = dict(vary={"servo.y.kp_per_s": (60, 300)}, trials=12)
+    machine = twin.Machine(**{"servo.x.kp_per_s": 150, "servo.y.kp_per_s": 70})
+    tuned = twin.tune(tmp_path / "short.nc", machine, folder=tmp_path / "out", **options)
+    assert tuned.report["after"]["contour_error_max_um"] < tuned.report["before"]["contour_error_max_um"]
+    assert tuned.machine["servo.y.kp_per_s"] == pytest.approx(tuned.settings["servo.y.kp_per_s"])
+    assert min(tuned.report["after"]["loops"][axis]["gain_margin_dB"] for axis in "xy") >= 6
+    again = twin.tune(tmp_path / "short.nc", machine, folder=tmp_path / "out", **options)
+    assert again.report == tuned.report and "0 runs computed" in again.table
+    with pytest.raises(twin.Error, match="did you mean"):
+        twin.tune("square.nc", folder=tmp_path / "x", vary={"servo.y.kp_per_m": (60, 300)})
+
+
+def test_report_writes_the_page_of_runs(tmp_path):
+    program = twin.Program.from_text("G21 G90\nG1 X2 F1200\nM30\n", "own.nc")
+    result = twin.run(program)
+    result.save(tmp_path / "a", trace="hdf5")
+    result.save(tmp_path / "b")
+    page = twin.report(tmp_path / "a", programs=[program])
+    assert page == str(tmp_path / "a" / "report.html")
+    assert "is not where it was" not in open(page).read()
+    assert "is not where it was" in open(twin.report(tmp_path / "b")).read()  # the program is not given
+    both = twin.report([tmp_path / "a", tmp_path / "b"], tmp_path / "both.html")
+    assert "<html" in open(both).read()
+    with pytest.raises(twin.Error, match="is this the folder of a run"):
+        twin.report(tmp_path)

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 #include "tests/runtime/run_fixture.hpp"
 #include "tests/support/fake_machine.hpp"
 #include "tests/support/program_text.hpp"

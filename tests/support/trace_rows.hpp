@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/limits.hpp"
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::test {
 
@@ -16,7 +16,7 @@ namespace twin::test {
 class TraceRows {
  public:
   explicit TraceRows(const std::filesystem::path& file) {
-    auto reader = results::CsvReader::open(file);
+    auto reader = results::TraceReader::open(file);
     EXPECT_TRUE(reader) << (reader ? "" : to_string(reader.error()));
     if (!reader) {
       return;

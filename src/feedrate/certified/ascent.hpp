@@ -1,18 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "feedrate/certified/rise.hpp"
+#include "feedrate/limits/ramp_levels.hpp"
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/profile/phases.hpp"
 #include "feedrate/profile/ramps.hpp"
 
 namespace twin::feedrate {
-
-/// Direction in which an ascent goes along the path.
-enum class Sense : std::int8_t { kForward = 1, kBackward = -1 };
 
 /// The fastest rise of the feedrate from an anchor under limits that grow along the way.
 ///

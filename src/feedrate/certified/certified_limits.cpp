@@ -17,19 +17,15 @@ struct ByArcLength {
 
 namespace {
 
-/// Curvature between two samples, over the larger of the two. It follows from how closely curvature
-/// is sampled (see the class), and costs 0.15 % of the feedrate in bends.
-constexpr double kBetweenSamples = 1.003;
-
 /// Bound of the third derivative, over what three samples of it give. It covers what a parabola
 /// through them does not see, and costs 1.6 % of the feedrate where the jerk of an axis binds;
 /// twice the margin would cost 1.6 % more.
 constexpr double kTwistMargin = 1.05;
 
-/// A bend ends where the curvature has fallen to this share of its peak. A larger share cuts one
-/// bend in two, each of which may then seem brief; a smaller one joins neighbours that are two
-/// corners.
-constexpr double kValley = 0.5;
+/// Periods in which zones are passed that become one, where axes have limits of their own: their rises
+/// cost more a zone. Corners of a nanometre would have thousands of zones otherwise; twice as much
+/// would begin to be felt at corners of 10 um.
+constexpr double kBriefZone = 0.02;
 
 /// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
 /// changes along it. With twice as many, half as much is lost by taking the worst of each part.
@@ -40,15 +36,11 @@ constexpr int kArcParts = 48;
 /// jerk (axis_limits.hpp), so twice as much could be too much, and the way down too short.
 constexpr double kRest = 0.25;
 
-/// Largest turn of the path within a period in a bend that winds on, by kWinding and more [rad].
+/// Largest turn of the path within a period in a bend that winds on (BendInterval::is_winding) [rad].
 /// Set points that are farther apart do not tell the motion between them: the arc seems longer or
 /// shorter by up to the fifth power of the turn. Only details of some 10 um have such bends; twice
 /// as much leaves a jerk in their set points that nobody planned.
 constexpr double kWindingTurn = 0.4;
-
-/// A bend that turns by more than this is no corner: a corner turns by less than pi, which its
-/// samples show as up to a fifth more [rad].
-constexpr double kWinding = 1.5 * std::numbers::pi;
 
 /// The same in any bend, where the acceleration can swing within a period (kSwing). Then the
 /// tangential acceleration before and after the middle of the bend has a part square to the path,
@@ -179,17 +171,10 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       brief_(limits, with_circular_error(model, model.corner_error), path, period),
       chord_error_(path.chord_error),
       period_(period),
-      corner_error_(model.corner_error),
       has_axis_limits_(has_axis_limits(limits)),
       has_vector_limits_(limits.jerk_of == JerkOf::kVector),
       vector_limits_(vector_limits_of(limits)),
-      least_jerk_(limits.jerk) {
-  for (int i = 0; i < 3; ++i) {
-    if (limits.axis_jerk[i] > 0.0) {
-      least_jerk_ = std::min(least_jerk_, limits.axis_jerk[i]);
-    }
-  }
-}
+      bends_(model.corner_error) {}
 
 /// Feedrate at which any turn at all may lie within a period: it changes the velocity by less than
 /// A and J allow [mm/s].
@@ -198,14 +183,14 @@ double CertifiedLimits::any_turn_feedrate() const noexcept {
 }
 
 /// Largest turn within a period [rad].
-double CertifiedLimits::most_turn(const Interval& interval) const noexcept {
+double CertifiedLimits::most_turn(const BendInterval& interval) const noexcept {
   if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
     return kSwingingTurn;
   }
   return interval.is_winding ? kWindingTurn : std::numeric_limits<double>::infinity();
 }
 
-double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On what) const {
+double CertifiedLimits::limit_at(const BendInterval& interval, double feedrate, On what) const {
   const LocalGeometry at{interval.curvature};
   const double by_rule = interval.is_brief ? brief_.limit_at(at, feedrate, what)
                                            : lasting_.limit_at(at, feedrate, what);
@@ -224,77 +209,20 @@ double CertifiedLimits::limit_at(const Interval& interval, double feedrate, On w
   return limit;
 }
 
-void CertifiedLimits::find_intervals(const path::FittedCurve& curve) {
-  intervals_.clear();
-  for (std::size_t i = 1; i < curve.curvature.size(); ++i) {
-    const geometry::CurvatureSample& a = curve.curvature[i - 1];
-    const geometry::CurvatureSample& b = curve.curvature[i];
-    intervals_.push_back({a.s, b.s, kBetweenSamples * std::max(a.curvature, b.curvature)});
-  }
-}
-
-/// Marks the intervals of brief bends. A bend that is cut by an end of the curve counts as one that
-/// lasts.
-void CertifiedLimits::find_brief_bends() {
-  peaks_.clear();
-  std::size_t begin = 0;
-  while (begin < intervals_.size()) {
-    double peak = intervals_[begin].curvature;
-    double turn = 0.0;
-    double least = std::numeric_limits<double>::infinity();  // since the bend has fallen to half
-    std::size_t end = begin;
-    for (; end < intervals_.size(); ++end) {
-      const double k = intervals_[end].curvature;
-      if (k <= kValley * peak) {
-        least = std::min(least, k);
-      }
-      if (k * kValley > least) {
-        break;
-      }
-      peak = std::max(peak, k);
-      turn += k * (intervals_[end].end - intervals_[end].begin);
-    }
-    const bool is_cut = (begin == 0 && intervals_[begin].curvature > kValley * peak) ||
-                        (end == intervals_.size() && intervals_.back().curvature > kValley * peak);
-    const bool is_brief = !is_cut && turn < 0.9 * std::numbers::pi &&
-                          1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
-    for (std::size_t i = begin; i < end; ++i) {
-      intervals_[i].is_brief = is_brief;
-      intervals_[i].is_winding = turn >= kWinding;
-    }
-    if (is_brief && (has_vector_limits_ || (limits_.axis_jerk.array() > 0.0).any())) {
-      add_peak(begin, end, turn);
-    }
-    begin = end;
-  }
-}
-
-/// Adds the middle of a brief bend: where its two most curved intervals meet.
-void CertifiedLimits::add_peak(std::size_t first, std::size_t last, double turn) {
-  const auto most = std::max_element(
-      intervals_.begin() + static_cast<std::ptrdiff_t>(first),
-      intervals_.begin() + static_cast<std::ptrdiff_t>(last),
-      [](const Interval& a, const Interval& b) { return a.curvature < b.curvature; });
-  std::size_t at = static_cast<std::size_t>(most - intervals_.begin());
-  if (at + 1 < last && intervals_[at + 1].curvature == most->curvature) {
-    ++at;
-  }
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Peak peak{at, turn / most->curvature, kFar};
-  if (!peaks_.empty()) {
-    Peak& before = peaks_.back();
-    peak.room = 0.5 * (intervals_[at].begin - intervals_[before.interval].begin);
-    before.room = std::min(before.room, peak.room);
-  }
-  peaks_.push_back(peak);
-}
-
 /// Limit of the middle of a brief bend [mm/s].
-/// @param limit  that of the bend beside it [mm/s]
-double CertifiedLimits::dip_limit(const Peak& peak, double limit, double feedrate) const {
+/// @param limit    that of the bend beside it [mm/s]
+/// @param tangent  dC/ds in the middle
+double CertifiedLimits::dip_limit(const BendPeak& peak, double limit, double feedrate,
+                                  const Vec3& tangent) const {
+  double jerk = limits_.jerk;
+  for (int i = 0; i < 3; ++i) {
+    if (limits_.axis_jerk[i] > 0.0 && tangent[i] != 0.0) {
+      jerk = std::min(jerk, limits_.axis_jerk[i] / std::abs(tangent[i]));
+    }
+  }
   const double reached =
-      std::isfinite(peak.room) ? path::feedrate_within(peak.room, feedrate, least_jerk_) : feedrate;
-  return limit * path::best_passage(peak.half, limit, reached, least_jerk_).dip;
+      std::isfinite(peak.room) ? path::feedrate_within(peak.room, feedrate, jerk) : feedrate;
+  return limit * path::best_passage(peak.half, limit, reached, jerk).dip;
 }
 
 /// Lowers the limits of a zone to what the axes allow, and the jerk as a vector.
@@ -308,13 +236,16 @@ void CertifiedLimits::keep_derivatives(const ByArcLength& begin, const ByArcLeng
   if (has_vector_limits_) {
     keep_axis_limits(vector_bounds_between(begin, middle, end, length), vector_limits_, bend, zone);
   }
+  if (has_axis_limits_ && has_vector_limits_) {
+    zone.most = 0.0;  // what is left below the limit is known of each of them, not of both
+  }
 }
 
 /// Lowers the limits of an interval of a curve to what the axes allow.
-void CertifiedLimits::keep_axes(const path::FittedCurve& curve, std::size_t interval,
+void CertifiedLimits::keep_axes(const path::FittedCurve& curve, const BendInterval& interval,
                                 LimitZone& zone) const {
-  const double u0 = curve.curvature[interval].u;
-  const double u1 = curve.curvature[interval + 1].u;
+  const double u0 = interval.u0;
+  const double u1 = interval.u1;
   const int span = curve.curve.find_span(0.5 * (u0 + u1));
   const auto from = curve.curve.derivatives(u0, span);
   const auto to = curve.curve.derivatives(u1, span);
@@ -322,28 +253,26 @@ void CertifiedLimits::keep_axes(const path::FittedCurve& curve, std::size_t inte
   const Vec3 third = (to.second - from.second) / (u1 - u0);
   keep_derivatives(by_arc_length(from, third), by_arc_length(middle, third),
                    by_arc_length(to, third),
-                   intervals_[interval].is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
+                   interval.is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
   put_on_steps(ramp_, zone);
 }
 
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
-  find_intervals(curve);
-  peaks_.clear();
-  if (!curve.is_programmed) {
-    find_brief_bends();
-  }
-  ZoneRow row(zones);
-  auto peak = peaks_.begin();
-  for (std::size_t i = 0; i < intervals_.size(); ++i) {
-    const Interval& interval = intervals_[i];
+  bends_.find(curve);
+  const bool has_dips = has_vector_limits_ || (limits_.axis_jerk.array() > 0.0).any();
+  ZoneRow row(zones, has_axis_limits_ || has_vector_limits_ ? kBriefZone * period_ : 0.0);
+  auto peak = bends_.peaks().begin();
+  for (std::size_t i = 0; i < bends_.intervals().size(); ++i) {
+    const BendInterval& interval = bends_.intervals()[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end,
                    limit_at(interval, feedrate, On::kCurve)};
     if (has_axis_limits_ || has_vector_limits_) {
-      keep_axes(curve, i, zone);
+      keep_axes(curve, interval, zone);
     }
-    if (peak != peaks_.end() && peak->interval == i) {
-      const double dip = dip_limit(*peak, zone.limit, feedrate);
+    if (has_dips && peak != bends_.peaks().end() && peak->interval == i) {
+      const double dip = dip_limit(*peak, zone.limit, feedrate,
+                                   path::point_from(curve.curve.derivatives(interval.u0)).tangent);
       if (dip < zone.limit && !row.is_empty()) {
         row.append({zone.begin, zone.begin, dip});
       }
@@ -356,8 +285,8 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
 void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double feedrate,
                                  std::vector<LimitZone>& zones) const {
   const auto* arc = std::get_if<path::Arc>(&segment.geometry);
-  const Interval whole{0.0, segment.length,
-                       std::max(segment.begin.curvature.norm(), segment.end.curvature.norm())};
+  const BendInterval whole{0.0, segment.length, 0.0, 1.0,
+                           std::max(segment.begin.curvature.norm(), segment.end.curvature.norm())};
   const double limit = limit_at(whole, feedrate, On::kArcOrLine);
   const int parts = arc != nullptr && has_axis_limits_ ? kArcParts : 1;
   ZoneRow row(zones);
@@ -365,7 +294,7 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
     const double begin = segment.length * i / parts;
     const double end = i + 1 == parts ? segment.length : segment.length * (i + 1) / parts;
     LimitZone zone{s0 + begin, s0 + end, limit};
-    if (has_axis_limits_ || has_vector_limits_) {
+    if ((has_axis_limits_ || has_vector_limits_) && segment.length > 0.0) {
       const auto at = [&](double s) -> ByArcLength {
         const path::PathPoint p = arc != nullptr ? path::point_at(*arc, s) : segment.begin;
         return {p.tangent, p.curvature,

@@ -29,7 +29,7 @@ bool is_faster_rising(const Phase& phase, double s, double limit) {
   const double gain = std::max(limit - phase.v, 0.0);
   const double root = std::sqrt(std::max(phase.a * phase.a + 2.0 * phase.j * gain, 0.0));
   const double t = gain > 0.0 ? 2.0 * gain / (phase.a + root) : 0.0;
-  return motion_at(phase, t).s < s - kPlaceRounding;
+  return motion_at(phase, t).s < s;
 }
 
 /// Whether a phase that falls passes a place faster than a limit.
@@ -43,7 +43,7 @@ bool is_faster_falling(const Phase& phase, double s, double limit) {
   const double loss = std::max(phase.v - limit, 0.0);
   const double root = std::sqrt(std::max(phase.a * phase.a - 2.0 * phase.j * loss, 0.0));
   const double t = loss > 0.0 ? std::min(2.0 * loss / (root - phase.a), phase.duration) : 0.0;
-  return motion_at(phase, t).s > s + kPlaceRounding;
+  return motion_at(phase, t).s > s;
 }
 
 }  // namespace
@@ -219,10 +219,18 @@ std::size_t Glide::phase_at(double s, std::size_t from) const {
   return from;
 }
 
-/// Whether the summit at hand passes a place, which lies in a phase, faster than a limit.
+/// Whether the summit at hand passes a place, which lies in a phase, faster than a limit. The place
+/// is known to kPlaceRounding, within which the next phase may begin.
 bool Glide::is_faster(std::size_t phase, double s, double limit) const {
-  return phase < climb_.descent ? is_faster_rising(climb_.phases[phase], s, limit)
-                                : is_faster_falling(climb_.phases[phase], s, limit);
+  if (phase >= climb_.descent) {
+    const double place = s + kPlaceRounding;
+    return is_faster_falling(climb_.phases[phase_at(place, phase)], place, limit);
+  }
+  const double place = s - kPlaceRounding;
+  while (phase > 0 && climb_.phases[phase].s > place) {
+    --phase;
+  }
+  return is_faster_rising(climb_.phases[phase], place, limit);
 }
 
 /// The zone of the lowest limit that the summit at hand does not keep; of several, the middle one.

@@ -123,9 +123,7 @@ void GlidePlanner::forget(double distance) {
   for (Phase& phase : plan_) {
     phase.s -= distance;
   }
-  for (Piece& piece : pieces_) {
-    piece.end -= distance;
-  }
+  pieces_.forget(distance);
 }
 
 bool GlidePlanner::plan_until(std::span<const LimitZone> zones, const Anchor& start,
@@ -147,53 +145,9 @@ bool GlidePlanner::plan_until(std::span<const LimitZone> zones, const Anchor& st
   plan_ = glide_.phases();
   fallbacks_ += glide_.is_even() ? 1 : 0;
   if (ramps_ == Ramps::kOfZones) {
-    find_pieces(planned);
+    pieces_.find(plan_, glide_.leg_ends(), planned, ramp_);
   }
   return true;
-}
-
-/// Divides the plan where its legs end, and where the zones' acceleration or jerk changes.
-void GlidePlanner::find_pieces(std::span<const LimitZone> zones) {
-  pieces_.clear();
-  const auto& legs = glide_.leg_ends();
-  std::size_t leg = 0;
-  std::size_t phase = 0;
-  const double begin = plan_.empty() ? 0.0 : plan_.front().s;
-  double last = begin;
-  const auto add = [&](double end, const RampLimits& ramp, double held_above) {
-    if (end <= last + kPlaceRounding || plan_.empty()) {
-      return;
-    }
-    while (phase + 1 < plan_.size() && plan_[phase + 1].s <= end) {
-      ++phase;
-    }
-    const Phase& there = plan_[phase];
-    const PathMotion at = motion_at(there, std::min(time_at(there, end), there.duration));
-    pieces_.push_back({end, at.v, at.a, ramp, held_above});
-    last = end;
-  };
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    const RampLimits ramp{std::min(zones[i].deceleration, ramp_.acceleration),
-                          std::min(zones[i].jerk, ramp_.jerk), ramp_.profile};
-    for (; leg < legs.size() && legs[leg] < zones[i].end - kPlaceRounding; ++leg) {
-      add(legs[leg], ramp, zones[i].held_above);
-      if (!pieces_.empty() && pieces_.back().end == legs[leg]) {
-        pieces_.back().a = 0.0;
-      }
-    }
-    const bool ends_leg = leg < legs.size() && legs[leg] <= zones[i].end + kPlaceRounding;
-    const bool is_same = i + 1 < zones.size() && zones[i + 1].end > zones[i + 1].begin &&
-                         zones[i + 1].deceleration == zones[i].deceleration &&
-                         zones[i + 1].jerk == zones[i].jerk &&
-                         zones[i + 1].held_above == zones[i].held_above;
-    if ((is_same && !ends_leg) || zones[i].end <= zones[i].begin) {
-      continue;
-    }
-    add(ends_leg ? legs[leg] : zones[i].end, ramp, zones[i].held_above);
-    if (ends_leg && !pieces_.empty()) {
-      pieces_.back().a = 0.0;
-    }
-  }
 }
 
 /// From rest, with the lowest limits of all zones everywhere, a plan always exists.
@@ -332,59 +286,8 @@ void GlidePlanner::commit(Window& window, const Cut& cut) {
   }
   plan_.erase(plan_.begin(), done);
   if (ramps_ == Ramps::kOfZones) {
-    commit_stretches(window);
+    pieces_.commit(window.start, window.stretches);
   }
-}
-
-/// Hands on the pieces up to the window's start, for stops.
-void GlidePlanner::commit_stretches(Window& window) {
-  const Anchor& start = window.start;
-  std::size_t done = 0;
-  for (; done < pieces_.size() && pieces_[done].end <= start.s + kPlaceRounding; ++done) {
-    const Piece& piece = pieces_[done];
-    Stretch stretch = stretch_of(done, start.s);
-    stretch.rest = rest_after(done + 1, {piece.end, piece.v, std::min(piece.a, 0.0)});
-    window.stretches.push_back(stretch);
-  }
-  pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(done));
-  const double last = window.stretches.empty() ? 0.0 : window.stretches.back().end;
-  if (!pieces_.empty() && start.s > last + kPlaceRounding) {
-    window.stretches.push_back({.end = start.s,
-                                .ramp = pieces_.front().ramp,
-                                .v = start.v,
-                                .rest = rest_after(0, {start.s, start.v, 0.0}),
-                                .held_above = pieces_.front().held_above});
-  }
-}
-
-/// A piece as a stretch of which the plan is known up to a place.
-Stretch GlidePlanner::stretch_of(std::size_t piece, double last) const {
-  const Piece& here = pieces_[piece];
-  Stretch stretch{.end = here.end, .ramp = here.ramp, .v = here.v, .held_above = here.held_above};
-  if (here.a < 0.0 && here.v > 0.0) {
-    stretch.fall = -here.a / (here.v * here.v);
-  }
-  if (piece + 1 < pieces_.size() && here.v > 0.0) {
-    // A stop may take its deceleration on to the next piece, where that one allows it and is long
-    // enough for it to be lost.
-    const Piece& next = pieces_[piece + 1];
-    stretch.is_harder_after =
-        next.ramp.acceleration >= here.ramp.acceleration && next.ramp.jerk >= here.ramp.jerk &&
-        std::min(next.end, last) - here.end >= here.v * here.ramp.acceleration / next.ramp.jerk;
-  }
-  return stretch;
-}
-
-/// Where a stop rests that begins on a piece [mm].
-double GlidePlanner::rest_after(std::size_t piece, PathMotion from) const {
-  for (; piece < pieces_.size(); ++piece) {
-    const StopPart part = make_stop_part(from, stretch_of(piece, pieces_.back().end));
-    from = end_of(part.brake);
-    if (part.rests) {
-      break;
-    }
-  }
-  return from.s;
 }
 
 }  // namespace twin::feedrate

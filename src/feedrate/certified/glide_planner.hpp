@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "feedrate/certified/passage_glide.hpp"
+#include "feedrate/certified/plan_pieces.hpp"
 #include "feedrate/planner.hpp"
 
 namespace twin::feedrate {
@@ -44,16 +45,6 @@ class GlidePlanner final : public WindowPlanner {
     std::size_t zones = 1;
   };
 
-  /// A part of the plan within one acceleration and jerk, on which the feedrate rises once and falls
-  /// once at most.
-  struct Piece {
-    double end;         // [mm]
-    double v;           // of the plan there [mm/s]
-    double a;           // the same [mm/s^2]
-    RampLimits ramp;    // that every place of it allows
-    double held_above;  // as that of its zone [mm/s]
-  };
-
   /// A place of the plan.
   struct Cut {
     std::size_t phase;  // index of the phase
@@ -64,16 +55,12 @@ class GlidePlanner final : public WindowPlanner {
   bool plan_until(std::span<const LimitZone> zones, const Anchor& start, double horizon);
   void plan_evenly(const Window& window, double horizon);
   bool fall_back(Window& window, double horizon, Tail tail);
-  void find_pieces(std::span<const LimitZone> zones);
   double descent_to(const Window& window, std::size_t zone, double v, double most);
   double descent_at(const Window& window, double horizon, double v) const;
   double room_after(const Window& window, const Anchor& anchor, double horizon);
   Cut last_final(const Window& window, double horizon);
   Cut next_level() const;
   void commit(Window& window, const Cut& cut);
-  void commit_stretches(Window& window);
-  Stretch stretch_of(std::size_t piece, double last) const;
-  double rest_after(std::size_t piece, PathMotion from) const;
 
   RampLimits ramp_;
   Ramps ramps_;
@@ -86,7 +73,7 @@ class GlidePlanner final : public WindowPlanner {
   ZoneAscent zone_probe_;
   std::vector<LimitZone> calmed_;  // zones of a plan, where places limit the jerk beside them
   std::vector<Phase> plan_;        // last plan from the start to rest
-  std::vector<Piece> pieces_;      // of plan_, where zones have ramps of their own
+  PlanPieces pieces_;              // of plan_, where zones have ramps of their own
 };
 
 }  // namespace twin::feedrate

@@ -12,8 +12,30 @@ namespace {
 
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
-/// Halvings of the time of a phase: as many as it has digits, so that more would change nothing.
-constexpr int kTimeHalvings = 53;
+/// A way out touches a limit where it is below it by less than this share of it. Ten times more would
+/// not be seen as touching (kFeedrateRounding), ten times less costs two ways out more.
+constexpr double kTouching = 1e-10;
+
+/// Most ways out to find where a limit is touched. Every other one halves the time that is left, so
+/// that it is known to 1e-15 whatever the limits; usually a tenth of them is enough.
+constexpr int kMostWaysOut = 100;
+
+/// Time at which a phase that begins with a > 0 and -J reaches a distance, within its duration.
+///
+/// From the right Newton's method falls to the root, since v rises; the first guess, with a alone, is
+/// on the left, and its first step leads to the right.
+double time_along(const Phase& phase, double distance) noexcept {
+  double t = 2.0 * distance / (phase.v + std::sqrt(phase.v * phase.v + 2.0 * phase.a * distance));
+  for (int i = 0; i < 20; ++i) {
+    const PathMotion at = motion_at(phase, t);
+    const double step = (at.s - phase.s - distance) / at.v;
+    t = std::min(t - step, phase.duration);
+    if (std::abs(step) <= 1e-14 * t) {
+      break;
+    }
+  }
+  return t;
+}
 
 }  // namespace
 
@@ -29,6 +51,7 @@ void ZoneAscent::start(std::span<const LimitZone> zones, std::size_t first, cons
   ceiling_ = std::max(ceiling, anchor.v);
   highest_ = top_ = anchor.v;
   cells_.clear();
+  levels_.clear();
   restart(anchor.v);
   load_cell();
 }
@@ -44,19 +67,21 @@ void ZoneAscent::load_cell() {
       continue;
     }
     highest_ = std::max(highest_, zone.limit);
-    const double most = sign_ > 0.0 ? zone.acceleration : zone.deceleration;
-    const Cell cell{end, highest_, std::min(most, ramp_.acceleration),
-                    std::min(zone.jerk, ramp_.jerk)};
-    if (!cells_.empty() && cells_.back().limit == cell.limit &&
-        cells_.back().acceleration == cell.acceleration && cells_.back().jerk == cell.jerk) {
+    const double jerk = std::min(zone.jerk, ramp_.jerk);
+    if (zone.most == 0.0 && !cells_.empty() && cells_.back().limit == highest_ &&
+        cells_.back().jerk == jerk && cells_.back().level + 1 == levels_.size() &&
+        levels_.back().acceleration ==
+            std::min(sign_ > 0.0 ? zone.acceleration : zone.deceleration, ramp_.acceleration)) {
       cells_.back().end = end;
     } else {
-      cells_.push_back(cell);
+      cells_.push_back({end, highest_, jerk, levels_.size()});
+      append_ramp_levels(zone, sign_ > 0.0 ? Sense::kForward : Sense::kBackward, ramp_, levels_);
     }
     return;
   }
   if (cells_.empty()) {
-    cells_.push_back({kNoEnd, highest_, ramp_.acceleration, ramp_.jerk});
+    cells_.push_back({kNoEnd, highest_, ramp_.jerk, levels_.size()});
+    levels_.push_back({kNoEnd, ramp_.acceleration});
   }
   cells_.back().end = kNoEnd;
 }
@@ -69,46 +94,77 @@ std::size_t ZoneAscent::cell_at(double s) const noexcept {
   return std::min(static_cast<std::size_t>(cell - cells_.begin()), cells_.size() - 1);
 }
 
-/// Follows a way out from cell to cell. @param take  called with each phase
+/// The level of a feedrate; at the top of a level the next one.
+std::size_t ZoneAscent::level_at(const Cell& cell, double v) const noexcept {
+  std::size_t level = cell.level;
+  while (levels_[level].top <= v * (1.0 + kFeedrateRounding)) {
+    ++level;
+  }
+  return level;
+}
+
+/// By how much -J from a motion up to a feedrate exceeds the levels of a cell, as a share of them.
+double ZoneAscent::excess_over_levels(const Cell& cell, const PathMotion& at,
+                                      double v_end) const noexcept {
+  double a = at.a;
+  double excess = -1.0;
+  for (std::size_t level = level_at(cell, at.v);; ++level) {
+    excess = std::max(excess, a / levels_[level].acceleration - 1.0 - kFeedrateRounding);
+    const double top = levels_[level].top;
+    if (top >= v_end) {
+      return excess;
+    }
+    a = std::sqrt(std::max(at.a * at.a - 2.0 * cell.jerk * (top - at.v), 0.0));
+  }
+}
+
+/// Follows a way out from cell to cell, as long as no limit is exceeded by more than a share of it.
+/// @param take  called with each phase
 template <class Take>
-ZoneAscent::WayOut ZoneAscent::follow_way_out(PathMotion at, const Take& take) const noexcept {
-  bool is_kept = true;
+ZoneAscent::WayOut ZoneAscent::follow_way_out(PathMotion at, double most_excess,
+                                              const Take& take) const noexcept {
+  double excess = -1.0;
   for (std::size_t i = cell_at(at.s);; ++i) {
     const bool is_last = i + 1 >= cells_.size();
     const Cell& cell = cells_[std::min(i, cells_.size() - 1)];
-    is_kept = is_kept && at.a <= cell.acceleration * (1.0 + kFeedrateRounding);
     const Phase phase{at.a / cell.jerk, at.s, at.v, at.a, -cell.jerk};
     PathMotion end = motion_at(phase, phase.duration);
     const bool ends = is_last || end.s <= cell.end;
     double time = phase.duration;
     if (!ends) {
-      time = time_at(phase, cell.end);
+      time = time_along(phase, cell.end - at.s);
       end = motion_at(phase, time);
       end.s = cell.end;
     }
-    is_kept = is_kept && end.v <= cell.limit * (1.0 + kFormulaRounding);
+    if (is_last && end.s > cell.end) {  // what holds there is not known yet
+      take(phase);
+      return {end.v, end.s, excess, true};
+    }
+    excess = std::max(
+        {excess, end.v / cell.limit - 1.0 - kFormulaRounding, excess_over_levels(cell, at, end.v)});
     if (time > 0.0) {
       take(Phase{time, at.s, at.v, at.a, -cell.jerk});
     }
-    if (ends) {
-      return {end.v, end.s, is_kept, is_last && end.s > cell.end};
+    if (ends || excess > most_excess) {
+      return {end.v, end.s, excess, false};
     }
     at = end;
   }
 }
 
 ZoneAscent::WayOut ZoneAscent::way_out(const PathMotion& at) const noexcept {
-  return follow_way_out(at, [](const Phase&) {});
+  return follow_way_out(at, kNoEnd, [](const Phase&) {});
 }
 
-/// Whether the way out of a motion keeps all limits.
-bool ZoneAscent::is_safe(const PathMotion& at) {
-  WayOut way = way_out(at);
-  while (way.is_beyond) {  // each turn takes a zone more, and the last has no end
+/// By how much the way out of a motion exceeds some limit, as a share of it.
+double ZoneAscent::excess_of(const PathMotion& at) {
+  const auto follow = [&] { return follow_way_out(at, 0.0, [](const Phase&) {}); };
+  WayOut way = follow();
+  while (way.is_beyond && way.excess <= 0.0) {  // each turn takes a zone more; the last has no end
     load_cell();
-    way = way_out(at);
+    way = follow();
   }
-  return way.is_kept;
+  return way.excess;
 }
 
 void ZoneAscent::append(double duration, double jerk) {
@@ -120,15 +176,24 @@ void ZoneAscent::append(double duration, double jerk) {
   at_ = motion_at(phases_.back(), duration);
 }
 
-/// -J until a = 0, then no acceleration, up to the end of a cell.
+/// -J until a = 0, then no acceleration, up to the end of a cell or of a level.
 void ZoneAscent::leave(const Cell& cell) {
-  const Phase phase{at_.a / cell.jerk, at_.s, at_.v, at_.a, -cell.jerk};
+  Phase phase{at_.a / cell.jerk, at_.s, at_.v, at_.a, -cell.jerk};
+  const double top = levels_[level_at(cell, at_.v)].top;
+  const double square = at_.a * at_.a - 2.0 * cell.jerk * (top - at_.v);
+  if (square > 0.0) {
+    phase.duration = std::min(phase.duration, 2.0 * (top - at_.v) / (at_.a + std::sqrt(square)));
+  }
   if (motion_at(phase, phase.duration).s > cell.end) {
     append(time_at(phase, cell.end), -cell.jerk);
     at_.s = cell.end;
     return;
   }
   append(phase.duration, -cell.jerk);
+  if (square > 0.0) {
+    at_.v = top;
+    return;
+  }
   at_.a = 0.0;
   at_.v = top_;
   hold(cell);
@@ -147,24 +212,26 @@ void ZoneAscent::hold(const Cell& cell) {
   at_.s = cell.end;
 }
 
-/// Time for which a phase may last in its cell.
-double ZoneAscent::longest(const Phase& phase, const Cell& cell) const noexcept {
-  double time = rising_time(phase, cell.limit);
+/// Time for which a phase may last in its cell and level.
+double ZoneAscent::longest(const Phase& phase, const Cell& cell,
+                           const RampLevel& level) const noexcept {
+  double time = rising_time(phase, std::min(cell.limit, level.top));
   if (phase.j > 0.0) {
-    time = std::min(time, (cell.acceleration - phase.a) / phase.j);
+    time = std::min(time, (level.acceleration - phase.a) / phase.j);
   }
   const Phase whole{time, phase.s, phase.v, phase.a, phase.j};
   return motion_at(whole, time).s > cell.end ? time_at(whole, cell.end) : time;
 }
 
-/// Longest time of a phase after which its way out keeps all limits; at `time` it does not.
-double ZoneAscent::last_safe(const Phase& phase, double time) {
-  double low = 0.0;
-  for (int i = 0; i < kTimeHalvings && time - low > 1e-15 * time; ++i) {
-    const double middle = 0.5 * (low + time);
-    (is_safe(motion_at(phase, middle)) ? low : time) = middle;
+/// Longest time of a phase after which its way out keeps all limits.
+/// @param time, excess  a time after which it does not, and by how much
+double ZoneAscent::last_safe(const Phase& phase, double time, double excess) {
+  const double now = excess_of({phase.s, phase.v, phase.a});
+  if (now >= 0.0) {
+    return 0.0;
   }
-  return low;
+  const auto excess_after = [&](double t) { return excess_of(motion_at(phase, t)); };
+  return root_from_below(excess_after, 0.0, now, time, excess, {kTouching, 1e-15, kMostWaysOut, 2});
 }
 
 void ZoneAscent::extend() {
@@ -179,12 +246,14 @@ void ZoneAscent::extend() {
     hold(cell);
     return;
   }
-  const bool rises = at_.a < cell.acceleration * (1.0 - kFeedrateRounding);
+  const RampLevel level = levels_[level_at(cell, at_.v)];
+  const bool rises = at_.a < level.acceleration * (1.0 - kFeedrateRounding);
   const Phase phase{0.0, at_.s, at_.v, at_.a, rises ? cell.jerk : 0.0};
-  double time = longest(phase, cell);
-  const bool is_free = is_safe(motion_at(phase, time));
+  double time = longest(phase, cell, level);
+  const double excess = excess_of(motion_at(phase, time));
+  const bool is_free = excess <= 0.0;
   if (!is_free) {
-    time = last_safe(phase, time);
+    time = last_safe(phase, time, excess);
   }
   const PathMotion before = at_;
   append(time, phase.j);
@@ -252,7 +321,7 @@ Rise::Exit ZoneAscent::exit_at(double v) const noexcept {
 }
 
 void ZoneAscent::append_way_out(const Exit& exit, std::vector<Phase>& phases) const {
-  follow_way_out(exit.at, [&](const Phase& phase) { phases.push_back(phase); });
+  follow_way_out(exit.at, kNoEnd, [&](const Phase& phase) { phases.push_back(phase); });
 }
 
 }  // namespace twin::feedrate

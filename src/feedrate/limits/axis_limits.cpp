@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace twin::feedrate {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kBendShareAlong = 0.4;
 
 /// Share of that for the feedrate alone, in bends that last and in brief ones. The rest is for the
 /// acceleration that adds to it.
-constexpr double kTwistShare = 0.8;
+constexpr double kTwistShare = 0.95;
 constexpr double kBriefTwistShare = 0.97;
 
 /// Tangential acceleration that is left in bends, over that of a ramp from rest to the feedrate of
@@ -53,6 +54,32 @@ void keep_feedrate(const PathBounds& path, int axis, const Limits& limits, BendK
   if (jerk > 0.0 && k > kTiny) {  // 3 k v a <= share of J, with a = kRampShare sqrt(J v)
     const double root = std::cbrt(kRampJerkShare * std::sqrt(jerk) / (3.0 * kRampShare * k));
     zone.limit = std::min(zone.limit, root * root);
+  }
+}
+
+/// What a zone allows below its limit: each part is the least over all axes.
+///   t a + k v^2 <= A            <=>  a <= A / t (1 - k v^2 / A)
+///   3 k v a + k' v^3 <= S       <=>  a <= S / (3 k v) (1 - k' v^3 / S)    S: the axis's jerk for bends
+void keep_more_below(const PathBounds& path, const Limits& limits, LimitZone& zone) noexcept {
+  zone.most = limits.acceleration;
+  zone.power = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double t = path.tangent[i];
+    const double k = path.curvature[i];
+    if (limits.axis_acceleration[i] > 0.0 && t > kTiny) {
+      zone.most = std::min(zone.most, limits.axis_acceleration[i] / t);
+      zone.bend = std::max(zone.bend, k / limits.axis_acceleration[i]);
+    }
+    if (limits.axis_jerk[i] > 0.0 && k > kTiny) {
+      const double share = bend_jerk(t, limits.axis_jerk[i]);
+      zone.power = std::min(zone.power, share / (3.0 * k));
+      const double fade = path.twist[i] / share;
+      zone.fade_up = std::max(zone.fade_up, path.trend[i] < 0.0 ? 0.0 : fade);
+      zone.fade_down = std::max(zone.fade_down, path.trend[i] > 0.0 ? 0.0 : fade);
+    }
+  }
+  if (zone.bend == 0.0 && std::isinf(zone.power)) {
+    zone.most = zone.power = 0.0;
   }
 }
 
@@ -103,6 +130,7 @@ void keep_axis_limits(const PathBounds& path, const Limits& limits, BendKind ben
                             : path.twist[i] * v * v * v;
     zone.jerk = std::min(zone.jerk, (limits.axis_jerk[i] - used) / path.tangent[i]);
   }
+  keep_more_below(path, limits, zone);
 }
 
 }  // namespace twin::feedrate

@@ -38,6 +38,9 @@ bool has_axis_limits(const Limits& limits) noexcept;
 /// and one that opens leaves much for speeding up. The feedrate leaves so much that
 /// a twentieth of sqrt(J v) can be had for a in both directions.
 ///
+/// Acceleration and deceleration of the zone are those that are left at its limit. What more is left
+/// at a lower feedrate is LimitZone::most, power and the fades.
+///
 /// @param bend  a brief one is so short that little has to be left for other motions in it
 void keep_axis_limits(const PathBounds& path, const Limits& limits, BendKind bend,
                       LimitZone& zone) noexcept;

@@ -47,6 +47,17 @@ double curvature_feedrate(double curvature, double feedrate, const PlanningModel
                    std::sqrt(limits.acceleration / curvature)});
 }
 
+double monotone_curvature_feedrate(double curvature, double feedrate, const PlanningModel& model,
+                                   const Limits& limits) noexcept {
+  if (!(curvature > 0.0)) {
+    return feedrate;
+  }
+  const double limit = std::min(feedrate, std::sqrt(limits.acceleration / curvature));
+  return curvature < critical_curvature(limits.acceleration, model.critical_feedrate)
+             ? limit
+             : std::min(limit, servo_model_feedrate(curvature, model));
+}
+
 double chord_error_feedrate(double curvature, double chord_error, double period) noexcept {
   if (!(curvature > 0.0) || curvature * chord_error >= 1.0) {
     return std::numeric_limits<double>::infinity();
@@ -68,6 +79,7 @@ FeedrateRules::FeedrateRules(Limits limits, const PlanningModel& model, const Pa
                              double period)
     : limits_(std::move(limits)),
       model_(model),
+      planner_(path.planner),
       on_curves_(chosen(model.feedrate_rule, path.curves == CurveKind::kBezier
                                                  ? FeedrateRule::kConstant
                                                  : FeedrateRule::kServoModel)),
@@ -81,7 +93,7 @@ double FeedrateRules::limit_by(FeedrateRule rule, const LocalGeometry& at,
   switch (rule) {
     case FeedrateRule::kAuto:
     case FeedrateRule::kServoModel:
-      return curvature_feedrate(at.curvature, feedrate, model_, limits_);
+      return servo_limit(at.curvature, feedrate);
     case FeedrateRule::kConstant:
       return feedrate;
     case FeedrateRule::kChordError:

@@ -58,6 +58,20 @@ double servo_model_feedrate(double curvature, const PlanningModel& model) noexce
 double curvature_feedrate(double curvature, double feedrate, const PlanningModel& model,
                           const Limits& limits) noexcept;
 
+/// Feedrate limit by the servo model that never falls where the programmed feedrate rises.
+///
+/// As curvature_feedrate(), but whether a place of a curve is critical does not depend on the
+/// programmed feedrate: Eq. 2 has model.critical_feedrate in its place. So the limit is the
+/// programmed feedrate or a limit that the place alone has, whichever is less. With Eq. 2 as
+/// published a bend becomes critical, and much slower, when the programmed feedrate gets so high
+/// that the bend takes all of A_max.
+///
+/// @param curvature  kappa >= 0 [1/mm]
+/// @param feedrate   programmed feedrate V > 0 [mm/s]
+/// @returns [mm/s]
+double monotone_curvature_feedrate(double curvature, double feedrate, const PlanningModel& model,
+                                   const Limits& limits) noexcept;
+
 /// Feedrate at which the chord between two set points just reaches the chord tolerance.
 ///
 /// Two successive set points are v T apart. With the path replaced by its osculating circle of
@@ -105,7 +119,8 @@ enum class On : std::uint8_t { kCurve, kArcOrLine };
 ///
 ///   constant       V_NC alone, without regard to A_max, as a plain interpolator does
 ///   chord_error    chord_error_feedrate
-///   servo_model    curvature_feedrate, Eqs. 2 to 6
+///   servo_model    curvature_feedrate, Eqs. 2 to 6; with the certified planner
+///                  monotone_curvature_feedrate
 ///   contact_speed  contact_speed_feedrate; may exceed V_NC
 ///   auto           servo_model, but constant on Bezier pieces: Fast Bezier interpolation as
 ///                  published keeps the programmed feedrate through them
@@ -120,9 +135,8 @@ class FeedrateRules {
   /// @param feedrate  programmed feedrate V_NC > 0 [mm/s]
   double limit_at(const LocalGeometry& at, double feedrate, On what) const noexcept {
     const FeedrateRule rule = what == On::kCurve ? on_curves_ : elsewhere_;
-    return rule == FeedrateRule::kServoModel
-               ? curvature_feedrate(at.curvature, feedrate, model_, limits_)
-               : limit_by(rule, at, feedrate);
+    return rule == FeedrateRule::kServoModel ? servo_limit(at.curvature, feedrate)
+                                             : limit_by(rule, at, feedrate);
   }
 
   /// Whether the rule uses `level` and `turning` of a place, besides its curvature.
@@ -131,10 +145,16 @@ class FeedrateRules {
   }
 
  private:
+  double servo_limit(double curvature, double feedrate) const noexcept {
+    return planner_ == Planner::kPaper
+               ? curvature_feedrate(curvature, feedrate, model_, limits_)
+               : monotone_curvature_feedrate(curvature, feedrate, model_, limits_);
+  }
   double limit_by(FeedrateRule rule, const LocalGeometry& at, double feedrate) const noexcept;
 
   Limits limits_;
   PlanningModel model_;
+  Planner planner_;
   FeedrateRule on_curves_;
   FeedrateRule elsewhere_;
   double chord_error_;

@@ -19,6 +19,12 @@ struct LimitZone {
   double jerk = std::numeric_limits<double>::infinity();          ///< tangential [mm/s^3]
   /// Above this feedrate the zone is passed without acceleration: the passage of a corner [mm/s].
   double held_above = std::numeric_limits<double>::infinity();
+  // More acceleration is allowed below the limit, see ramp_levels.hpp. most = 0: no more.
+  double most = 0.0;       ///< M, near rest, either way [mm/s^2]
+  double bend = 0.0;       ///< S, share of M that the bend takes, over v^2 [s^2/mm^2]
+  double power = 0.0;      ///< P, of acceleration and feedrate near rest [mm^2/s^3]
+  double fade_up = 0.0;    ///< R, share of P that the bend takes, over v^3; a > 0 [s^3/mm^3]
+  double fade_down = 0.0;  ///< the same where a < 0 [s^3/mm^3]
 };
 
 /// Whether a zone is the passage of a corner.
@@ -31,11 +37,14 @@ bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept;
 
 /// Appends the zones of one segment, one after the other. Neighbours whose limits differ by less
 /// than 1 %, and which allow the same ramps, become one zone, which has the lowest limit of all of
-/// them.
+/// them. So do neighbours that are passed in next to no time, where their limits differ by less than
+/// 30 %; of the ramps that they allow the least counts.
 class ZoneRow {
  public:
   /// @param zones  the list to append to; its present zones are not changed
-  explicit ZoneRow(std::vector<LimitZone>& zones) : zones_(zones), first_(zones.size()) {}
+  /// @param brief  time in which zones are passed together that is next to none [s]
+  explicit ZoneRow(std::vector<LimitZone>& zones, double brief = 0.0)
+      : zones_(zones), first_(zones.size()), brief_(brief) {}
 
   /// Appends a zone that begins where the last one ends, or merges it with the last one.
   void append(const LimitZone& zone);
@@ -45,6 +54,7 @@ class ZoneRow {
  private:
   std::vector<LimitZone>& zones_;
   std::size_t first_;
+  double brief_;
   double highest_ = 0.0;  // highest limit among the zones that were merged into the last one [mm/s]
 };
 

@@ -14,6 +14,7 @@ enum class CallKind : std::uint8_t {
   kMain,      ///< the program itself
   kOWord,     ///< o100 call: ends with endsub or return, has variables of its own
   kNumbered,  ///< M98 P100: ends with M99, shares all variables
+  kMacro,     ///< G65 P100: ends with M99, has variables of its own, which are its arguments
 };
 
 /// One program or subprogram that runs.
@@ -31,6 +32,8 @@ struct Frame {
   LineSource::Place back;         ///< where the caller goes on, in the caller's text
   std::int64_t calling_line = 0;  ///< of the caller, in its text
   std::int64_t left = 1;          ///< runs of M98 L that are left, this one included
+  std::vector<double> arguments;  ///< of a macro: its #1 to #33
+  std::uint64_t serial = 0;       ///< no two calls of a reading have the same
   bool has_words = false;         ///< a line was executed since its begin
   std::vector<Loop> loops;        ///< repeats that run
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -62,6 +63,7 @@ Expected<void> Flow::push(Frame frame, int column) {
   }
   frame.back = unit().source.place();
   frame.calling_line = line();
+  frame.serial = ++calls_;
   frames_.push_back(std::move(frame));
   take_last_frame();
   unit().source.seek(frames_.back().body);
@@ -87,7 +89,7 @@ Expected<void> Flow::call(std::string_view text, const ControlLine& control) {
   std::array<double, kMostArguments> arguments{};
   std::size_t count = 0;
   for (std::size_t at = control.rest; !is_rest_empty(text, at);) {
-    skip_blanks(text, at);
+    skip_comments(text, at);
     if (text[at] != '[') {
       return fail_at(column_from(at), fmt::format("expected the arguments of the call in [ ], "
                                                   "found '{}'",
@@ -113,7 +115,8 @@ Expected<void> Flow::call(std::string_view text, const ControlLine& control) {
 
 Expected<void> Flow::end_sub(std::string_view text, const ControlLine& control) {
   const Frame& frame = frames_.back();
-  if (frame.kind != CallKind::kOWord || frame.label != control.label) {
+  const bool is_own = control.keyword == Keyword::kReturn || frame.label == control.label;
+  if (frame.kind != CallKind::kOWord || !is_own) {
     return fail_at(column_from(control.label_begin),
                    fmt::format("{} {} where {} does not run: expected it between sub and endsub",
                                shown_label(control.label), name_of(control.keyword),
@@ -168,35 +171,58 @@ Expected<std::optional<std::size_t>> Flow::include(const std::string& label) {
   return units_.size() - 1;
 }
 
-Expected<void> Flow::call_numbered(double number, const std::optional<double>& times, int column) {
-  TWIN_TRY(std::int64_t of_program, whole(number, kMostOfLabel, column));
-  TWIN_TRY(std::int64_t runs, whole(times.value_or(1.0), kMostTimes, column));
-  TWIN_TRY(const ControlIndex* index, index_of(unit()));
+/// What M98 and G65 call: O1234 of the text that runs, of the main program, or a file.
+Expected<Frame> Flow::numbered_frame(double number, const std::optional<double>& times,
+                                     int column) {
+  TWIN_TRY(const std::int64_t of_program, whole(number, kMostOfLabel, column));
   Frame frame;
+  TWIN_TRY(frame.left, whole(times.value_or(1.0), kMostTimes, column));
   frame.kind = CallKind::kNumbered;
-  frame.unit = frames_.back().unit;
   frame.label = std::to_string(of_program);
-  auto entry = index->find_name(frame.label);
-  if (!entry && !times && of_program >= kOldFormat) {
-    if (const auto old = index->find_name(std::to_string(of_program % kOldFormat))) {
-      entry = old;
-      runs = of_program / kOldFormat;
-      frame.label = std::to_string(of_program % kOldFormat);
+  for (const std::size_t of : {frames_.back().unit, std::size_t{0}}) {
+    TWIN_TRY(const ControlIndex* index, index_of(*units_[of]));
+    frame.unit = of;
+    auto entry = index->find_name(frame.label);
+    if (!entry && !times && of_program >= kOldFormat) {
+      entry = index->find_name(std::to_string(of_program % kOldFormat));
+      if (entry) {
+        frame.left = of_program / kOldFormat;
+        frame.label = std::to_string(of_program % kOldFormat);
+      }
+    }
+    if (entry) {
+      frame.body = (*index)[*entry].behind;
+      return frame;
     }
   }
-  if (entry) {
-    frame.body = (*index)[*entry].behind;
-  } else {
-    TWIN_TRY(const auto of, include(frame.label));
-    if (!of) {
-      return fail_at(column, fmt::format("there is no O{0} in the program, and no file {0}.ngc "
-                                         "beside it or in a folder of --subprograms",
-                                         frame.label));
+  for (const std::string& name : {frame.label, "o" + frame.label, "O" + frame.label}) {
+    TWIN_TRY(const auto of, include(name));
+    if (of) {
+      frame.unit = *of;
+      return frame;
     }
-    frame.unit = *of;
   }
-  frame.left = runs;
-  return runs > 0 ? push(std::move(frame), column) : Expected<void>();
+  return fail_at(column, fmt::format("there is no O{0} in the program, and no file {0}.ngc or "
+                                     "O{0}.nc beside it or in a folder of --subprograms",
+                                     frame.label));
+}
+
+Expected<void> Flow::call_numbered(double number, const std::optional<double>& times, int column) {
+  TWIN_TRY(Frame frame, numbered_frame(number, times, column));
+  return frame.left > 0 ? push(std::move(frame), column) : Expected<void>();
+}
+
+Expected<void> Flow::call_macro(double number, const std::optional<double>& times,
+                                const MacroArguments& arguments, int column) {
+  TWIN_TRY(Frame frame, numbered_frame(number, times.value_or(1.0), column));
+  if (frame.left == 0) {
+    return {};
+  }
+  frame.kind = CallKind::kMacro;
+  frame.arguments.assign(arguments.begin(), arguments.end());
+  TWIN_CHECK(push(std::move(frame), column));
+  parameters_.enter_macro(arguments);
+  return {};
 }
 
 Expected<bool> Flow::return_from_numbered(const std::optional<double>& to_line, int column) {
@@ -208,7 +234,16 @@ Expected<bool> Flow::return_from_numbered(const std::optional<double>& to_line, 
     return fail_at(column, fmt::format("M99 in {}: expected endsub or return, M99 ends O{}",
                                        shown_label(frame.label), frame.label));
   }
+  const bool is_macro = frame.kind == CallKind::kMacro;
+  if (is_macro) {
+    parameters_.leave();
+  }
   if (--frame.left > 0) {
+    if (is_macro) {
+      MacroArguments arguments{};
+      std::copy(frame.arguments.begin(), frame.arguments.end(), arguments.begin());
+      parameters_.enter_macro(arguments);
+    }
     frame.has_words = false;
     frame.loops.clear();
     unit().source.seek(frame.body);

@@ -16,21 +16,14 @@ struct NamedKeyword {
 };
 
 constexpr std::array kOWords = {
-    NamedKeyword{"SUB", Keyword::kSub},
-    NamedKeyword{"ENDSUB", Keyword::kEndSub},
-    NamedKeyword{"CALL", Keyword::kCall},
-    NamedKeyword{"RETURN", Keyword::kReturn},
-    NamedKeyword{"IF", Keyword::kIf},
-    NamedKeyword{"ELSEIF", Keyword::kElseIf},
-    NamedKeyword{"ELSE", Keyword::kElse},
-    NamedKeyword{"ENDIF", Keyword::kEndIf},
-    NamedKeyword{"WHILE", Keyword::kWhile},
-    NamedKeyword{"ENDWHILE", Keyword::kEndWhile},
-    NamedKeyword{"DO", Keyword::kDo},
-    NamedKeyword{"REPEAT", Keyword::kRepeat},
-    NamedKeyword{"ENDREPEAT", Keyword::kEndRepeat},
-    NamedKeyword{"BREAK", Keyword::kBreak},
-    NamedKeyword{"CONTINUE", Keyword::kContinue},
+    NamedKeyword{"SUB", Keyword::kSub},           NamedKeyword{"ENDSUB", Keyword::kEndSub},
+    NamedKeyword{"CALL", Keyword::kCall},         NamedKeyword{"CALLSUB", Keyword::kCall},
+    NamedKeyword{"RETURN", Keyword::kReturn},     NamedKeyword{"IF", Keyword::kIf},
+    NamedKeyword{"ELSEIF", Keyword::kElseIf},     NamedKeyword{"ELSE", Keyword::kElse},
+    NamedKeyword{"ENDIF", Keyword::kEndIf},       NamedKeyword{"WHILE", Keyword::kWhile},
+    NamedKeyword{"ENDWHILE", Keyword::kEndWhile}, NamedKeyword{"DO", Keyword::kDo},
+    NamedKeyword{"REPEAT", Keyword::kRepeat},     NamedKeyword{"ENDREPEAT", Keyword::kEndRepeat},
+    NamedKeyword{"BREAK", Keyword::kBreak},       NamedKeyword{"CONTINUE", Keyword::kContinue},
 };
 
 constexpr std::array kMacroWords = {
@@ -125,7 +118,7 @@ Expected<ControlLine> read_o_line(std::string_view line, std::size_t at) {
   if (is_rest_empty(line, at)) {
     return control;
   }
-  skip_blanks(line, at);
+  skip_comments(line, at);
   control.keyword_begin = at;
   const std::string word = read_letters(line, at);
   for (const NamedKeyword& known : kOWords) {
@@ -145,10 +138,10 @@ Expected<ControlLine> read_o_line(std::string_view line, std::size_t at) {
 }  // namespace
 
 std::size_t begin_of_words(std::string_view line, std::size_t at) noexcept {
-  skip_blanks(line, at);
+  skip_comments(line, at);
   if (at_or_zero(line, at) == '/') {
     ++at;
-    skip_blanks(line, at);
+    skip_comments(line, at);
   }
   if (upper(at_or_zero(line, at)) != 'N') {
     return at;
@@ -161,7 +154,7 @@ std::size_t begin_of_words(std::string_view line, std::size_t at) noexcept {
   while (is_digit(at_or_zero(line, behind)) || at_or_zero(line, behind) == '.') {
     ++behind;
   }
-  skip_blanks(line, behind);
+  skip_comments(line, behind);
   return behind;
 }
 
@@ -197,24 +190,23 @@ std::string_view name_of(Keyword keyword) noexcept {
   return kNames[static_cast<std::size_t>(keyword)];
 }
 
-bool is_rest_empty(std::string_view line, std::size_t at) noexcept {
-  while (at < line.size()) {
-    if (line[at] == ';') {
-      return true;
-    }
-    if (line[at] == '(') {
-      const auto comment = read_comment(line, at);
-      if (!comment) {
-        return false;
-      }
-      at = comment->end;
-    } else if (is_blank(line[at])) {
+void skip_comments(std::string_view line, std::size_t& at) noexcept {
+  while (at < line.size() && (is_blank(line[at]) || line[at] == '(' || line[at] == ';')) {
+    if (is_blank(line[at])) {
       ++at;
-    } else {
-      return false;
+      continue;
     }
+    const auto comment = read_comment(line, at);
+    if (!comment) {
+      return;
+    }
+    at = comment->end;
   }
-  return true;
+}
+
+bool is_rest_empty(std::string_view line, std::size_t at) noexcept {
+  skip_comments(line, at);
+  return at == line.size();
 }
 
 }  // namespace twin::gcode

@@ -46,8 +46,8 @@ struct ControlLine {
   std::size_t rest = 0;           ///< place behind the keyword
 };
 
-/// Place in a line where its first word begins: behind blanks, the / of block delete and the
-/// line number N.
+/// Place in a line where its first word begins: behind blanks, comments, the / of block delete and
+/// the line number N.
 std::size_t begin_of_words(std::string_view line, std::size_t at) noexcept;
 
 /// True if a line of flow control may begin at a place: O or :, or two letters in a row.
@@ -84,6 +84,9 @@ std::string shown_label(std::string_view label);
 
 /// The keyword as it is written, in lower case for O-words.
 std::string_view name_of(Keyword keyword) noexcept;
+
+/// Steps over blanks and comments.
+void skip_comments(std::string_view line, std::size_t& at) noexcept;
 
 /// True if nothing but blanks and comments is behind a place.
 bool is_rest_empty(std::string_view line, std::size_t at) noexcept;

@@ -76,7 +76,7 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
       begin = first + 1;
       executed = {line->substr(begin), begin};
     }
-    if (upper(c) == 'N' || c == '/') {
+    if (upper(c) == 'N' || c == '/' || c == '(') {
       begin = begin_of_words(*line, begin);
     }
     if (begin < line->size() && may_be_control(*line, begin)) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -17,11 +19,11 @@
 #include "gcode/program_text.hpp"
 #include "gcode/reader_options.hpp"
 #include "gcode/text/line_source.hpp"
+#include "gcode/values/parameters.hpp"
 
 namespace twin::gcode {
 
 class Notes;
-class Parameters;
 
 /// A line of text for the interpreter.
 struct ExecutedLine {
@@ -50,11 +52,22 @@ class Flow {
 
   /// M98: goes to the subprogram of a number, which runs `times` times.
   Expected<void> call_numbered(double number, const std::optional<double>& times, int column);
+  /// G65: the same with arguments, #1 to #33 of the macro, each null where it is not given.
+  using MacroArguments = std::array<double, Parameters::kMacroLocal>;
+  Expected<void> call_macro(double number, const std::optional<double>& times,
+                            const MacroArguments& arguments, int column);
   /// M99: back to the caller, or to its line N. @returns false in the main program, which ends
   Expected<bool> return_from_numbered(const std::optional<double>& to_line, int column);
 
   /// Subroutines that run within each other.
   std::size_t call_level() const noexcept { return frames_.size() - 1; }
+  /// What tells the call that runs from all others; 0: the main program.
+  std::uint64_t call() const noexcept { return frame_->serial; }
+  /// Whether a call has not returned yet.
+  bool is_running(std::uint64_t call) const noexcept {
+    return std::any_of(frames_.begin(), frames_.end(),
+                       [call](const Frame& frame) { return frame.serial == call; });
+  }
   /// True if the text cannot be read on behind the last error.
   bool is_broken() const noexcept { return is_broken_; }
   std::int64_t line() const noexcept { return unit().source.line(); }  ///< in its own text
@@ -120,6 +133,7 @@ class Flow {
   Expected<std::optional<std::size_t>> include(const std::string& label);
   Expected<bool> condition(std::string_view text, std::size_t at);
   Expected<void> go_to_line(double number, int column);
+  Expected<Frame> numbered_frame(double number, const std::optional<double>& times, int column);
   Expected<void> push(Frame frame, int column);
   void pop();
 
@@ -134,6 +148,7 @@ class Flow {
   /// Places that GOTO has found: unit, place of the GOTO, N.
   std::map<std::tuple<std::size_t, std::int64_t, std::int64_t>, LineSource::Place> gotos_;
   std::int64_t repeated_ = 0;  // lines that came again
+  std::uint64_t calls_ = 0;    // begun so far
   bool is_broken_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "gcode/block.hpp"
 #include "gcode/interpreter/plane.hpp"
@@ -14,6 +15,7 @@ namespace twin::gcode {
 namespace {
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
+constexpr double kMostSlack = 100.0;  // times the slack, however large the radius
 
 double length(const Vec2& vector) { return std::hypot(vector.x(), vector.y()); }
 
@@ -56,11 +58,14 @@ Expected<ProgrammedArc> arc_by_offset(const ArcEnds& ends, const Vec3& offset, d
     return fail_at(0, fmt::format("the centre of the arc is its {}: expected a radius above zero",
                                   start_radius < kNoLength ? "start" : "end"));
   }
-  if (std::abs(end_radius - start_radius) >
-      std::max(slack, 1e-3 * std::max(start_radius, end_radius))) {
+  const double share = 1e-3 * std::max(start_radius, end_radius);
+  if (std::abs(end_radius - start_radius) > std::clamp(share, slack, kMostSlack * slack)) {
     return fail_at(0, fmt::format("the arc's radius is {:.6g} mm at its start and {:.6g} mm at its "
-                                  "end: expected the same within {:.3g} mm or 0.1 %",
-                                  start_radius, end_radius, slack));
+                                  "end: expected the same within {:.3g} mm or 0.1 %{}",
+                                  start_radius, end_radius, slack,
+                                  share > kMostSlack * slack
+                                      ? fmt::format(", {:.3g} mm at most", kMostSlack * slack)
+                                      : std::string()));
   }
   return make_arc(ends, axes, u, d);
 }

@@ -8,7 +8,7 @@
 namespace twin::gcode {
 
 /// How far start and end radius of an arc may differ if nothing else is said [mm], or a thousandth of
-/// the radius if that is more.
+/// the radius if that is more, up to a hundred times this.
 inline constexpr double kRadiusSlack = 0.02;
 
 /// What a line with G02 or G03 says apart from its centre or radius.
@@ -36,7 +36,8 @@ struct ProgrammedArc {
 ///
 /// @param ends    start, end, plane and sense
 /// @param offset  from the start to the centre; its part along the third axis is not used [mm]
-/// @param slack   how far start and end radius may differ, if that is more than a thousandth [mm]
+/// @param slack   how far start and end radius may differ, if that is more than a thousandth; a
+///                hundred times as much is the most [mm]
 /// @returns the arc, or an error with column 0 if the radius is zero or the ends do not lie on one
 ///          circle
 Expected<ProgrammedArc> arc_by_offset(const ArcEnds& ends, const Vec3& offset,

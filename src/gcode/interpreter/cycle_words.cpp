@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "gcode/interpreter/modal_state.hpp"
@@ -58,6 +59,10 @@ Expected<void> CycleWords::keep(const LineWords& words, char up) {
   take(up, kept_.bottom);
   take('R', kept_.retract);
   take('Q', kept_.peck);
+  if (words.has('P') && words.value('P') < 0.0) {
+    return fail_at(words.column('P'),
+                   fmt::format("P{:.10g}: expected zero or more", words.value('P')));
+  }
   take('P', kept_.dwell);
   const Cycle& cycle = cycle_of(code_);
   const auto lacks = [&](std::string_view what) {
@@ -137,6 +142,10 @@ Expected<CycleLine> CycleWords::read(const LineWords& words, const ModalState& s
   if (state.is_incremental) {
     line.step = hole - place;
     line.step[axes.third] = 0.0;
+    if (words.has_any(kPolarLetters)) {
+      line.polar_step = Vec2(words.value_or_zero(kPolarRadius) * state.unit,
+                             words.value_or_zero(kPolarAngle) * std::numbers::pi / 180.0);
+    }
   }
   line.initial = *initial_;
   const double base = state.is_incremental ? line.initial : 0.0;

@@ -1,6 +1,7 @@
 #include "gcode/interpreter/drilling_cycle.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace twin::gcode {
 
@@ -44,7 +45,13 @@ CycleMove DrillingCycle::peck(Stage then_if_not_done) {
 
 CycleMove DrillingCycle::leave(CycleMove::Kind kind) {
   --left_;
-  hole_ += line_.step;
+  if (line_.polar_step) {
+    const double radius = std::hypot(hole_.x(), hole_.y()) + line_.polar_step->x();
+    const double angle = std::atan2(hole_.y(), hole_.x()) + line_.polar_step->y();
+    hole_.head<2>() = radius * Vec2(std::cos(angle), std::sin(angle));
+  } else {
+    hole_ += line_.step;
+  }
   return to(kind, clear(), left_ > 0 ? Stage::kToHole : Stage::kDone);
 }
 

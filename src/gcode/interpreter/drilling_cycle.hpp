@@ -25,8 +25,10 @@ enum class CycleKind : std::uint8_t {
 struct CycleLine {
   CycleKind kind = CycleKind::kDrill;
   Plane plane = Plane::kXy;
-  Vec3 first = Vec3::Zero();        ///< place of the first hole; its third axis is not used
-  Vec3 step = Vec3::Zero();         ///< from hole to hole, in the plane
+  Vec3 first = Vec3::Zero();  ///< place of the first hole; its third axis is not used
+  Vec3 step = Vec3::Zero();   ///< from hole to hole, in the plane
+  /// From hole to hole about the origin instead: a distance [mm] and an angle [rad].
+  std::optional<Vec2> polar_step{};
   std::int64_t repeats = 1;         ///< holes
   double initial = 0.0;             ///< height at which the series of cycles began
   double retract = 0.0;             ///< R

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/units.hpp"
 #include "gcode/interpreter/line_check.hpp"
 #include "gcode/notes.hpp"
 #include "gcode/text/fault.hpp"
@@ -19,6 +18,9 @@ constexpr std::uint32_t kPrepared = LineWords::groups_of(
     GGroup::kDwell, GGroup::kPlane, GGroup::kCutterCompensation, GGroup::kToolLength,
     GGroup::kWorkOffset, GGroup::kSetting, GGroup::kScaling, GGroup::kMirror, GGroup::kRotation,
     GGroup::kPathMode, GGroup::kSpindleMode, GGroup::kSmoothness, GGroup::kMotion);
+
+constexpr std::uint32_t kOfPlainMove = LineWords::set_of("FNXYZ");
+constexpr std::uint32_t kMotionAlone = LineWords::groups_of(GGroup::kMotion);
 
 bool goes_home(const LineWords& words) {
   return words.has(GGroup::kSetting, GWord::kHome) ||
@@ -33,14 +35,27 @@ Interpreter::Interpreter(const ReaderOptions& options, Notes& notes)
       programmed_(set_up_.coordinates().program_of(options.start)),
       feedrate_(options.feedrate),
       notes_(&notes) {
-  state_.feedrate = options.default_feedrate;
-  state_.feed_number = units::mm_per_min_from_mm_per_s(options.default_feedrate);
+  state_.feedrate = state_.default_feedrate = options.default_feedrate;
+  state_.is_fanuc = options.dialect == Dialect::kFanuc;
+  if (options.dialect == Dialect::kGrbl || state_.is_fanuc) {
+    state_.motion = MotionMode::kRapid;
+    state_.behind_cycle = state_.is_fanuc ? MotionMode::kRapid : MotionMode::kNone;
+  }
+  state_.may_guess_centres = options.guesses_centres;
 }
 
 Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, LineBlocks& blocks) {
   blocks.count = 0;
-  blocks.is_end = words.has(MGroup::kStop, MWord::kEnd);
   line_ = line;
+  if (is_plain_move(words)) {
+    blocks.is_end = false;
+    execute_plain_move(words, blocks);
+    return {};
+  }
+  blocks.is_end = words.has(MGroup::kStop, MWord::kEnd);
+  if (is_nurbs_broken_ && is_of_broken_nurbs(words)) {
+    return {};
+  }
   const MotionMode before = state_.motion;
   const Plane plane_before = state_.plane;
   update(state_, words, feedrate_);
@@ -64,6 +79,53 @@ Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, L
     fill(blocks);
   }
   return {};
+}
+
+/// Whether nothing but a straight move is on a line, and nothing in force makes it another: most
+/// lines of most programs, which need none of the checks.
+bool Interpreter::is_plain_move(const LineWords& words) const noexcept {
+  if ((words.letters() & ~kOfPlainMove) != 0 || (words.g_groups() & ~kMotionAlone) != 0 ||
+      words.has_m()) {
+    return false;
+  }
+  MotionMode motion = state_.motion;
+  if (words.has(GGroup::kMotion)) {
+    const GWord word = words.g(GGroup::kMotion);
+    motion = word == GWord::kRapid    ? MotionMode::kRapid
+             : word == GWord::kLinear ? MotionMode::kLinear
+                                      : MotionMode::kNone;
+  }
+  const bool has_feed = words.has('F') ? words.value('F') > 0.0 : state_.feedrate > 0.0;
+  return (motion == MotionMode::kRapid || (motion == MotionMode::kLinear && has_feed)) &&
+         state_.feed_mode == FeedMode::kPerMinute && !state_.is_nurbs() && !state_.is_polar &&
+         !compensation_.is_on() && !nurbs_.is_open() && !is_nurbs_broken_ && !is_lost_ &&
+         set_up_.axes_to_name() == 0;
+}
+
+void Interpreter::execute_plain_move(const LineWords& words, LineBlocks& blocks) {
+  stops_once_ = false;
+  if (words.g_groups() != 0 || words.has('F')) {
+    update(state_, words, feedrate_);
+    if (words.g_groups() != 0) {
+      cycle_words_.cancel();
+    }
+  }
+  if (!words.has_any("XYZ")) {
+    return;
+  }
+  const double unit = state_.unit;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const char letter = "XYZ"[axis];
+    if (words.has(letter)) {
+      const double number = words.value(letter) * unit;
+      programmed_[axis] = state_.is_incremental ? programmed_[axis] + number : number;
+    }
+  }
+  add_straight(state_.motion == MotionMode::kRapid ? Motion::kRapid : Motion::kLinear,
+               coordinates().machine_of(programmed_), blocks);
+  if (blocks.count > 0) {
+    must_leave_straight_ = false;
+  }
 }
 
 /// What a line does before it moves.
@@ -122,6 +184,10 @@ void Interpreter::note_words_without_effect(const LineWords& words) {
   note(words.has(MGroup::kInputOutput),
        "M62 to M68 have no effect: there are no inputs and outputs");
   note(words.has(MGroup::kClamp), "M10 and M11 have no effect: there are no clamps");
+  if (words.has(MGroup::kMachineFunction)) {
+    note(true, fmt::format("M{:g} has no effect: it is a function of the machine's builder",
+                           words.m_number(MGroup::kMachineFunction)));
+  }
   note(words.has(MGroup::kUserCommand), "M100 to M199 have no effect: no program is started");
 }
 

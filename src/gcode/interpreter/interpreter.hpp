@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "gcode/block.hpp"
+#include "gcode/interpreter/arc_words.hpp"
 #include "gcode/interpreter/cutter_compensation.hpp"
 #include "gcode/interpreter/cycle_words.hpp"
 #include "gcode/interpreter/drilling_cycle.hpp"
@@ -28,6 +29,13 @@ struct LineBlocks {
   std::array<Block, 6> block;
   std::size_t count = 0;
   bool is_end = false;  ///< M02 or M30: nothing after this line is part of the program
+};
+
+/// What M70 keeps: the modal state, the work offset in force and the tool's offset.
+struct SavedState {
+  ModalState state;
+  std::size_t work_offset = 0;
+  Vec3 tool_offset = Vec3::Zero();  ///< [mm]
 };
 
 /// Turns the words of line after line into blocks; holds the modal state and the position.
@@ -60,6 +68,17 @@ class Interpreter {
   /// @returns an error if a NURBS is still open
   Expected<void> finish() { return finish_at(1); }
 
+  /// The state for M70 and M73. @returns an error with the cutter compensation on
+  Expected<SavedState> saved_state(int column) const;
+  /// Puts a state in force again, but for the motion word, as M72 does.
+  void restore(const SavedState& saved);
+
+  /// Goes on behind a line that execute() has refused, or that could not be read, so that its error
+  /// is no reason for others.
+  ///
+  /// @param is_whole  whether the line's words say where it leads
+  void recover(const LineWords& words, bool is_whole);
+
   const ModalState& state() const noexcept { return state_; }
   /// Where the words have led, in the coordinates of the program [mm].
   const Vec3& position() const noexcept { return programmed_; }
@@ -67,6 +86,8 @@ class Interpreter {
   const SetUp& set_up() const noexcept { return set_up_; }
 
  private:
+  bool is_plain_move(const LineWords& words) const noexcept;
+  void execute_plain_move(const LineWords& words, LineBlocks& blocks);
   Expected<void> prepare(const LineWords& words, Plane plane_before, LineBlocks& blocks);
   void note_words_without_effect(const LineWords& words);
   Expected<void> change_compensation(const LineWords& words);
@@ -75,13 +96,16 @@ class Interpreter {
   Expected<void> add_home(const LineWords& words, LineBlocks& blocks);
   Expected<void> add_spline(const LineWords& words, LineBlocks& blocks);
   Expected<void> start_cycle(const LineWords& words);
-  Expected<void> shape_arc(const LineWords& words, const Vec3& from, Block& block) const;
+  Expected<void> shape_arc(const LineWords& words, const Vec3& from, Block& block);
+  Expected<ProgrammedArc> arc_of_words(const LineWords& words, const Vec3& from,
+                                       const ArcEnds& ends);
   Expected<void> shape_turns(const LineWords& words, geometry::Arc& arc) const;
   Expected<Vec3> target(const LineWords& words);
   Vec3 polar_target(const LineWords& words, const Vec3& place) const;
   Vec3 machine_target(const LineWords& words) const;
 
   bool concerns_nurbs(const LineWords& words) const noexcept;
+  bool is_of_broken_nurbs(const LineWords& words) noexcept;
   Expected<void> execute_nurbs(const LineWords& words, MotionMode before, LineBlocks& blocks);
   Expected<void> end_nurbs(const LineWords& words, MotionMode before, LineBlocks& blocks);
   Expected<void> add_nurbs(int column, LineBlocks& blocks);
@@ -115,6 +139,8 @@ class Interpreter {
   std::size_t next_waiting_ = 0;
   Vec2 spline_direction_ = Vec2::Zero();  // into the end of the last G05 [mm]
   std::optional<Vec3> spline_end_;        // [mm]
+  bool is_nurbs_broken_ = false;          // its other lines are left out
+  bool is_lost_ = false;                  // behind an error: where the tool is, is not known
 };
 
 }  // namespace twin::gcode

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kAxisWords = "XYZ";
 constexpr std::string_view kCentre = "IJK";
 constexpr std::string_view kOfArcs = "IJKR";
-constexpr std::uint32_t kPlain = LineWords::set_of("FNSTXYZ");
+constexpr std::uint32_t kPlain = LineWords::set_of("FNSTXYZ") | LineWords::set_of(kPolarLetters);
 
 std::string_view name_of(const ModalState& state) {
   switch (state.motion) {
@@ -139,8 +139,8 @@ std::uint32_t letters_of_m(const LineWords& words) {
   if (words.has(MGroup::kSpindle)) {
     taken |= LineWords::set_of("RPQ");
   }
-  if (words.has(MGroup::kUserCommand)) {
-    taken |= LineWords::set_of("PQ");
+  if (words.has(MGroup::kUserCommand) || words.has(MGroup::kMachineFunction)) {
+    taken |= LineWords::set_of("PQRLED");
   }
   if (words.has(MGroup::kToolChange, MWord::kToolNumber)) {
     taken |= LineWords::set_of("Q");
@@ -283,6 +283,9 @@ Expected<void> check_axis_users(const LineWords& words) {
 Expected<void> check_feedrate(const LineWords& words, const ModalState& state,
                               bool has_own_feedrate) {
   const int column = words.first_column("XYZIJKR");
+  if (words.has('F') && words.value('F') == 0.0) {
+    return fail_at(words.column('F'), "F0: expected a feedrate above zero, in units per minute");
+  }
   if (state.feed_mode == FeedMode::kInverseTime && !has_own_feedrate && !words.has('F')) {
     return fail_at(column, fmt::format("{} has no feedrate: expected an F word on its own line, "
                                        "for G93 (inverse time) is in force",

@@ -78,11 +78,13 @@ void update_feed(ModalState& state, const LineWords& words) {
   if (words.has('F')) {
     const double unit = state.feed_mode == FeedMode::kInverseTime ? 1.0 : state.unit;
     state.feed_number = words.value('F') * unit;
+    state.has_feed_word = true;
   }
   const double per_minute = state.feed_mode == FeedMode::kPerRevolution
                                 ? state.feed_number * state.spindle_rpm
                                 : state.feed_number;
-  state.feedrate = units::mm_per_s_from_mm_per_min(per_minute);
+  const bool has_none = state.feed_mode == FeedMode::kPerMinute && per_minute == 0.0;
+  state.feedrate = has_none ? state.default_feedrate : units::mm_per_s_from_mm_per_min(per_minute);
 }
 
 constexpr std::uint32_t kSeldom =
@@ -98,6 +100,7 @@ void update_seldom(ModalState& state, const LineWords& words) {
   }
   if (words.has(GGroup::kArcDistance)) {
     state.has_absolute_centres = words.g(GGroup::kArcDistance) == GWord::kAbsoluteCentres;
+    state.may_guess_centres = false;
   }
   if (words.has(GGroup::kPolar)) {
     state.is_polar = words.g(GGroup::kPolar) == GWord::kPolar;
@@ -122,7 +125,11 @@ void update_motion(ModalState& state, const LineWords& words) {
     }
     return;
   }
-  state.motion = motion_of(word);
+  if (state.is_fanuc && state.motion != MotionMode::kCycle && state.motion != MotionMode::kNone &&
+      !state.is_nurbs()) {
+    state.behind_cycle = state.motion;
+  }
+  state.motion = word == GWord::kCancelMotion ? state.behind_cycle : motion_of(word);
   state.cycle = word;
 }
 

@@ -35,23 +35,33 @@ enum class FeedMode : std::uint8_t {
 struct ModalState {
   MotionMode motion = MotionMode::kNone;
   GWord cycle = GWord::kCancelMotion;  ///< which, while motion is kCycle
+  /// What G80 leaves in force: with FANUC the last of G00 to G03, elsewhere nothing.
+  MotionMode behind_cycle = MotionMode::kNone;
+  bool is_fanuc = false;
   Plane plane = Plane::kXy;
   PathMode path_mode = PathMode::kContinuous;
   bool is_incremental = false;        ///< G91: X Y Z are from the position before the line
   bool has_absolute_centres = false;  ///< G90.1: I J K are coordinates
+  bool may_guess_centres = false;     ///< no G90.1, G91.1 or arc has said which
   bool is_polar = false;              ///< G16: the plane's axes are radius and angle
   bool returns_to_retract = false;    ///< G99: canned cycles return to R
   bool has_surface_speed = false;     ///< G96: S is a speed of the cut
   FeedMode feed_mode = FeedMode::kPerMinute;
-  double unit = 1.0;         ///< length of the program's unit [mm]
-  double tolerance = 0.0;    ///< path tolerance of G64 P, 0: the machine's own [mm]
-  double feed_number = 0.0;  ///< the last F: mm per minute, mm per revolution, or 1 per minute
-  double spindle_rpm = 0.0;  ///< the last S [1/min]
-  double feedrate = 0.0;     ///< that follows from these, 0 before the first F [mm/s]; with G93
-                             ///< the share of a move in a second [1/s]
+  double unit = 1.0;              ///< length of the program's unit [mm]
+  double tolerance = 0.0;         ///< path tolerance of G64 P, 0: the machine's own [mm]
+  double feed_number = 0.0;       ///< the last F: mm per minute, mm per revolution, or 1 per minute
+  double spindle_rpm = 0.0;       ///< the last S [1/min]
+  double default_feedrate = 0.0;  ///< while there is no F, or F0 [mm/s]
+  bool has_feed_word = false;     ///< an F was read
+  double feedrate = 0.0;  ///< that follows from these, 0 before the first F [mm/s]; with G93
+                          ///< the share of a move in a second [1/s]
 
   bool is_nurbs() const noexcept {
     return motion == MotionMode::kNurbs || motion == MotionMode::kKnotNurbs;
+  }
+  /// True while the feedrate is none of the program's.
+  bool has_default_feedrate() const noexcept {
+    return feed_mode == FeedMode::kPerMinute && feed_number == 0.0 && feedrate > 0.0;
   }
   bool is_arc() const noexcept {
     return motion == MotionMode::kArcClockwise || motion == MotionMode::kArcCounterClockwise;

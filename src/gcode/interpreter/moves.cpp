@@ -52,7 +52,11 @@ Expected<void> Interpreter::add_move(const LineWords& words, LineBlocks& blocks)
     }
     block.motion = Motion::kArc;
     block.feedrate = state_.feedrate;
-    TWIN_CHECK(shape_arc(words, from, block));
+    if (auto shaped = shape_arc(words, from, block); !shaped && is_lost_) {
+      block.motion = Motion::kLinear;
+    } else {
+      TWIN_CHECK(shaped);
+    }
   } else {
     const bool is_rapid = state_.motion == MotionMode::kRapid;
     block.motion = is_rapid ? Motion::kRapid : Motion::kLinear;
@@ -65,6 +69,7 @@ Expected<void> Interpreter::add_move(const LineWords& words, LineBlocks& blocks)
   if (state_.feed_mode == FeedMode::kInverseTime && !feedrate_) {
     block.feedrate *= length_of(block);
   }
+  is_lost_ = is_lost_ && (state_.is_incremental || !words.has('X') || !words.has('Y'));
   position_ = block.end;
   if (compensation_.is_on()) {
     return compensate(words.first_column("XYZIJKR"), blocks);
@@ -73,8 +78,37 @@ Expected<void> Interpreter::add_move(const LineWords& words, LineBlocks& blocks)
   return {};
 }
 
-Expected<void> Interpreter::shape_arc(const LineWords& words, const Vec3& from,
-                                      Block& block) const {
+/// The arc of a line by R, or by I J K. Where nothing has said how these are meant, the first arc
+/// whose end fits one meaning alone decides.
+Expected<ProgrammedArc> Interpreter::arc_of_words(const LineWords& words, const Vec3& from,
+                                                  const ArcEnds& ends) {
+  if (words.has('R')) {
+    return arc_by_radius(ends, words.value('R') * state_.unit);
+  }
+  const double slack = slack_of(state_.unit);
+  const Vec3 centre =
+      Vec3(words.value_or_zero('I'), words.value_or_zero('J'), words.value_or_zero('K')) *
+      state_.unit;
+  auto arc = arc_by_offset(ends, state_.has_absolute_centres ? Vec3(centre - from) : centre, slack);
+  if (!state_.may_guess_centres) {
+    return arc;
+  }
+  if (arc) {
+    state_.may_guess_centres = from == Vec3::Zero();  // else it is known: from the start
+    return arc;
+  }
+  auto other = arc_by_offset(ends, centre - from, slack);
+  if (!other) {
+    return arc;
+  }
+  state_.has_absolute_centres = true;
+  state_.may_guess_centres = false;
+  notes_->add(NoteKind::kDialect,
+              "I, J and K are absolute (G90.1), as the first arc fits no other way", line_);
+  return other;
+}
+
+Expected<void> Interpreter::shape_arc(const LineWords& words, const Vec3& from, Block& block) {
   const Coordinates& frame = coordinates();
   const bool is_shift_only = frame.is_shift_only();
   ArcEnds ends{block.start, block.end, state_.plane, state_.motion == MotionMode::kArcClockwise};
@@ -82,13 +116,7 @@ Expected<void> Interpreter::shape_arc(const LineWords& words, const Vec3& from,
     ends.start = from;
     ends.end = programmed_;
   }
-  Vec3 offset = Vec3(words.value_or_zero('I'), words.value_or_zero('J'), words.value_or_zero('K')) *
-                state_.unit;
-  if (state_.has_absolute_centres) {
-    offset -= from;
-  }
-  auto arc = words.has('R') ? arc_by_radius(ends, words.value('R') * state_.unit)
-                            : arc_by_offset(ends, offset, slack_of(state_.unit));
+  auto arc = arc_of_words(words, from, ends);
   if (!arc) {
     arc.error().column = words.first_column("IJKR");
     return tl::unexpected<Error>(std::move(arc.error()));
@@ -193,6 +221,9 @@ Expected<void> Interpreter::add_home(const LineWords& words, LineBlocks& blocks)
         words.first_column("XYZ"),
         "home of one axis in turned coordinates: controls do not agree which axis moves; "
         "expected X and Y together");
+  }
+  if (words.has_left_out() && !words.has_any("XYZ")) {
+    return {};  // of an axis that is not there
   }
   const Vec3& home = is_first ? set_up_.home() : set_up_.second_home();
   must_leave_straight_ = false;

@@ -89,6 +89,20 @@ Expected<void> SetUp::apply(const LineWords& words, const ModalState& state, Vec
   return {};
 }
 
+void SetUp::restore(std::size_t work_offset, const Vec3& tool_offset, Vec3& place) {
+  const Vec3 machine = coordinates_.machine_of(place);
+  const std::uint64_t version = coordinates_.version();
+  if (coordinates_.selected() != work_offset) {
+    coordinates_.select(work_offset);
+  }
+  if (coordinates_.tool() != tool_offset) {
+    coordinates_.set_tool(tool_offset);
+  }
+  if (coordinates_.version() != version) {
+    place = coordinates_.program_of(machine);
+  }
+}
+
 const Tool* SetUp::tool_or_note(int number, std::string_view what, Notes& notes,
                                 std::int64_t line) const {
   const Tool* tool = tools_.find(number);
@@ -233,6 +247,9 @@ Expected<void> SetUp::set(const LineWords& words, const ModalState& state, const
 Expected<void> SetUp::set_shift(const LineWords& words, const ModalState& state,
                                 const Vec3& place) {
   const bool is_local = words.g(GGroup::kSetting) == GWord::kLocalOffset;
+  if (!words.has_any(kAxes) && words.has_left_out()) {
+    return {};
+  }
   if (!words.has_any(kAxes)) {
     return fail_at(
         words.column(GGroup::kSetting),

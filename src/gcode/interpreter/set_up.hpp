@@ -22,6 +22,7 @@ class SetUp {
 
   const Coordinates& coordinates() const noexcept { return coordinates_; }
   int tool() const noexcept { return tool_; }  ///< number of the one in the spindle; 0: none
+  int selected_tool() const noexcept { return selected_tool_; }   ///< number of the last T
   const Vec3& home() const noexcept { return homes_[0]; }         ///< G28 [mm]
   const Vec3& second_home() const noexcept { return homes_[1]; }  ///< G30 [mm]
 
@@ -36,6 +37,9 @@ class SetUp {
   /// @param place  where the tool is, in the coordinates of the program; brought up to date [mm]
   Expected<void> apply(const LineWords& words, const ModalState& state, Vec3& place, Notes& notes,
                        std::int64_t line);
+
+  /// Puts a work offset and an offset of the tool in force. @param place  as for apply()
+  void restore(std::size_t work_offset, const Vec3& tool_offset, Vec3& place);
 
   /// Axes, a bit for each, that the next absolute move must name: behind G68, G69, G51.1 and G50.1
   /// controls do not agree on the coordinate of an axis that is left out.

@@ -42,6 +42,7 @@ class ValueReader {
   Expected<double> function();
   Expected<double> exists();
   Expected<double> of_two(std::string_view name, int column);
+  Expected<double> apply_to_null(Operator op, double left, double right, int column);
   Expected<double> plain_number();
   tl::unexpected<Error> no_value() const;
 
@@ -58,7 +59,7 @@ Expected<double> ValueReader::value() {
   }
   ++at_;
   TWIN_TRY(const double magnitude, unsigned_value());
-  return sign == '-' ? -magnitude : magnitude;
+  return is_null(magnitude) || sign == '+' ? magnitude : -magnitude;
 }
 
 Expected<double> ValueReader::unsigned_value() {
@@ -107,7 +108,7 @@ Expected<double> ValueReader::parameter() {
   ++at_;
   if (peek() != '<') {
     TWIN_TRY(const double number, unsigned_value());
-    return parameters_.numbered(number, column);
+    return parameters_.numbered(or_zero(number), column);
   }
   const std::size_t end = line_.find('>', at_);
   if (end == std::string_view::npos) {
@@ -146,8 +147,21 @@ Expected<double> ValueReader::operation(int least_strength) {
     const int column = column_of(at_);
     at_ = behind;
     TWIN_TRY(const double right, operation(strength(op) + 1));
-    TWIN_TRY(left, apply(op, left, right, parameters_.dialect(), column));
+    if (is_null(left) || is_null(right)) {
+      TWIN_TRY(left, apply_to_null(op, left, right, column));
+    } else {
+      TWIN_TRY(left, apply(op, left, right, parameters_.dialect(), column));
+    }
   }
+}
+
+/// Null equals nothing but null, and is 0 to every other operator.
+Expected<double> ValueReader::apply_to_null(Operator op, double left, double right, int column) {
+  if (op == Operator::kEqual || op == Operator::kNotEqual) {
+    const bool are_equal = is_null(left) == is_null(right);
+    return are_equal == (op == Operator::kEqual) ? 1.0 : 0.0;
+  }
+  return apply(op, or_zero(left), or_zero(right), parameters_.dialect(), column);
 }
 
 Expected<double> ValueReader::function() {
@@ -173,7 +187,7 @@ Expected<double> ValueReader::function() {
     return of_two(word, column_of(begin));
   }
   TWIN_TRY(const double argument, bracketed());
-  return apply_function(word, argument, parameters_.dialect(), column_of(begin));
+  return apply_function(word, or_zero(argument), parameters_.dialect(), column_of(begin));
 }
 
 /// ATAN[y]/[x], or ATAN[y, x] and POW[x, y].
@@ -191,14 +205,19 @@ Expected<double> ValueReader::of_two(std::string_view name, int column) {
   TWIN_TRY(const double second, operation(1));
   TWIN_CHECK(expect(']', name));
   if (name == "POW") {
-    return apply(Operator::kPower, first, second, parameters_.dialect(), column);
+    return apply(Operator::kPower, or_zero(first), or_zero(second), parameters_.dialect(), column);
   }
-  return arc_tangent(first, second, parameters_.dialect());
+  return arc_tangent(or_zero(first), or_zero(second), parameters_.dialect());
 }
 
 Expected<double> ValueReader::exists() {
   ++at_;
   TWIN_CHECK(expect('#', "EXISTS"));
+  if (const char c = peek(); is_digit(c) || c == '#' || c == '[') {
+    TWIN_TRY(const double number, unsigned_value());
+    TWIN_CHECK(expect(']', "EXISTS"));
+    return Parameters::exists(number) ? 1.0 : 0.0;
+  }
   TWIN_CHECK(expect('<', "EXISTS"));
   const std::size_t end = line_.find('>', at_);
   if (end == std::string_view::npos) {
@@ -226,6 +245,12 @@ Expected<void> ValueReader::expect(char wanted, std::string_view where) {
 }  // namespace
 
 Expected<double> read_value(std::string_view line, std::size_t& at, const Parameters& parameters) {
+  TWIN_TRY(const double value, ValueReader(line, at, parameters).value());
+  return or_zero(value);
+}
+
+Expected<double> read_value_or_null(std::string_view line, std::size_t& at,
+                                    const Parameters& parameters) {
   return ValueReader(line, at, parameters).value();
 }
 
@@ -235,7 +260,8 @@ Expected<void> read_assignment(std::string_view line, std::size_t& at, Parameter
   ++at;
   skip_blanks(line, at);
   if (at_or_zero(line, at) != '<') {
-    TWIN_TRY(const double number, reader.value());
+    TWIN_TRY(const double given, reader.value());
+    const double number = or_zero(given);
     TWIN_CHECK(reader.expect('=', "a parameter"));
     TWIN_TRY(const double value, reader.operation(1));
     return parameters.set_later(number, value, column);

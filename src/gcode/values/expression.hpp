@@ -14,7 +14,8 @@ class Parameters;
 ///   value      = [ sign ] number | [ sign ] ( parameter | expression | function )
 ///   parameter  = # value | # < name >
 ///   expression = [ operand { operator operand } ]
-///   function   = name expression | ATAN expression / expression | EXISTS [ # < name > ]
+///   function   = name expression | ATAN expression / expression
+///              | EXISTS [ # < name > ] | EXISTS [ # value ]
 /// Operators from the strongest: **; * / MOD; + -; EQ NE GT GE LT LE; AND OR XOR. Of the same
 /// strength the left one comes first. Angles are in degrees, true is 1, anything but 0 counts as
 /// true, and EQ and NE take values less than 1e-6 apart as equal. Blanks may stand anywhere.
@@ -25,8 +26,11 @@ class Parameters;
 /// Source: FANUC, Custom Macro B, arithmetic and logic operation.
 ///
 /// @param at  place of the value's first character; afterwards the place behind it
-/// @returns the value, finite; or an error with its column
+/// @returns the value, finite; or an error with its column. FANUC's null is 0.
 Expected<double> read_value(std::string_view line, std::size_t& at, const Parameters& parameters);
+/// The same, but null stays null.
+Expected<double> read_value_or_null(std::string_view line, std::size_t& at,
+                                    const Parameters& parameters);
 
 /// True if a character can begin a value that is not a plain number.
 constexpr bool begins_value(char c) noexcept { return c == '#' || c == '['; }

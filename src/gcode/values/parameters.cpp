@@ -8,6 +8,7 @@
 
 #include "gcode/text/characters.hpp"
 #include "gcode/text/fault.hpp"
+#include "gcode/values/number.hpp"
 
 namespace twin::gcode {
 namespace {
@@ -16,11 +17,40 @@ constexpr double kNearWhole = 1e-4;  // how far a parameter's number may be off 
 
 bool is_global(std::string_view name) { return name.starts_with('_'); }
 
+/// True for the name of a pin or of a setting of LinuxCNC's machine.
+bool is_of_machine(std::string_view name) {
+  return name.starts_with("_hal[") || name.starts_with("_ini[");
+}
+
+constexpr std::string_view kBlanksAround = " \t";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanksAround);
+  return begin == std::string_view::npos
+             ? std::string_view()
+             : text.substr(begin, text.find_last_not_of(kBlanksAround) - begin + 1);
+}
+
 }  // namespace
 
-Expected<int> Parameters::index_of(double number, int column) {
+Parameters::Parameters(ParameterSource* source, Dialect dialect)
+    : source_(source), dialect_(dialect), numbers_(kMost + 1, 0.0) {
+  if (dialect == Dialect::kFanuc) {
+    std::fill_n(numbers_.begin(), kNull, kNullValue);
+  }
+}
+
+bool Parameters::exists(double number) noexcept {
   const double whole = std::round(number);
-  if (!(std::abs(number - whole) < kNearWhole) || whole < 1.0 || whole > kMost) {
+  return std::abs(number - whole) < kNearWhole && whole >= 1.0 && whole <= kMost;
+}
+
+Expected<int> Parameters::index_of(double number, int column) const {
+  const double whole = std::round(number);
+  if (whole == 0.0 && dialect_ == Dialect::kFanuc) {
+    return 0;
+  }
+  if (!exists(number)) {
     return fail_at(column,
                    fmt::format("#{:.10g}: expected a parameter from #1 to #{}", number, kMost));
   }
@@ -68,6 +98,15 @@ Expected<double> Parameters::named(std::string_view name, int column) const {
       return *supplied;
     }
   }
+  if (is_of_machine(key)) {
+    if (is_unknown_allowed_) {
+      unknown_ = key;
+      return 0.0;
+    }
+    return fail_at(column, fmt::format("#<{}> is known to LinuxCNC's machine alone: expected its "
+                                       "value in the setting program.parameters",
+                                       key));
+  }
   return fail_at(column, fmt::format("#<{}> has no value: expected a line that sets it before this "
                                      "one",
                                      key));
@@ -88,6 +127,9 @@ Parameters::Kept& Parameters::keep() {
 
 Expected<void> Parameters::set_later(double number, double value, int column) {
   TWIN_TRY(const int index, index_of(number, column));
+  if (index == 0) {
+    return fail_at(column, "#0 is always null: expected a parameter from #1 on");
+  }
   Kept& kept = keep();
   kept.number = index;
   kept.value = value;
@@ -138,16 +180,51 @@ void Parameters::set_global(std::string_view name, double value) {
   set_named(std::string(name), value);
 }
 
+Expected<void> Parameters::set_given(std::string_view text) {
+  while (!trimmed(text).empty()) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    const std::string_view item = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::size_t sign = item.rfind('=');
+    std::string_view name = trimmed(item.substr(0, std::min(sign, item.size())));
+    name.remove_prefix(name.starts_with('#') ? 1 : 0);
+    const std::string_view given =
+        sign == std::string_view::npos ? item : trimmed(item.substr(sign + 1));
+    const Number value = parse_number(given);
+    if (value.status != NumberStatus::kOk || value.length != given.size() || name.empty()) {
+      return fail_at(0, fmt::format("program.parameters has '{}': expected #NUMBER=VALUE or "
+                                    "NAME=VALUE",
+                                    trimmed(item)));
+    }
+    const Number number = parse_number(name);
+    if (number.status == NumberStatus::kOk && number.length == name.size()) {
+      TWIN_CHECK(set_later(number.value, value.value, 0));
+    } else {
+      name.remove_prefix(name.starts_with('<') ? 1 : 0);
+      name.remove_suffix(name.ends_with('>') ? 1 : 0);
+      TWIN_CHECK(set_later(name, value.value, 0));
+    }
+  }
+  commit();
+  return {};
+}
+
+void Parameters::enter_macro(const std::array<double, kMacroLocal>& arguments) {
+  enter({});
+  std::copy(arguments.begin(), arguments.end(), numbers_.begin() + 1);
+}
+
 void Parameters::enter(std::span<const double> arguments) {
   Scope& scope = scopes_.emplace_back();
-  std::copy_n(numbers_.begin() + 1, kLocal, scope.numbers.begin());
+  std::copy_n(numbers_.begin() + 1, kMacroLocal, scope.numbers.begin());
   scope.names.swap(locals_);
   std::copy(arguments.begin(), arguments.end(), numbers_.begin() + 1);
 }
 
 void Parameters::leave() {
   Scope& scope = scopes_.back();
-  std::copy(scope.numbers.begin(), scope.numbers.end(), numbers_.begin() + 1);
+  const int locals = dialect_ == Dialect::kFanuc ? kMacroLocal : kLocal;
+  std::copy_n(scope.numbers.begin(), locals, numbers_.begin() + 1);
   locals_ = std::move(scope.names);
   scopes_.pop_back();
 }

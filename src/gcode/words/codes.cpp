@@ -7,8 +7,8 @@
 namespace twin::gcode {
 namespace {
 
-constexpr std::size_t kGTenths = 1880;  // numbers of G words in tenths, up to G187.9
-constexpr std::size_t kMNumbers = 200;  // M0 to M199
+constexpr std::size_t kGTenths = 1880;   // numbers of G words in tenths, up to G187.9
+constexpr std::size_t kMNumbers = 1000;  // M0 to M999
 
 using GTable = std::array<std::optional<GCode>, kGTenths>;
 using MTable = std::array<std::optional<MCode>, kMNumbers>;
@@ -59,6 +59,8 @@ constexpr GEntry kGEntries[] = {
     {190, GWord::kPlaneYz, GGroup::kPlane},
     {200, GWord::kInch, GGroup::kUnits},
     {210, GWord::kMillimetre, GGroup::kUnits},
+    {700, GWord::kIsoInch, GGroup::kUnits},
+    {710, GWord::kIsoMillimetre, GGroup::kUnits},
     {900, GWord::kAbsolute, GGroup::kDistance},
     {910, GWord::kIncremental, GGroup::kDistance},
     {901, GWord::kAbsoluteCentres, GGroup::kArcDistance},
@@ -101,6 +103,9 @@ constexpr GEntry kGEntries[] = {
     {690, GWord::kNoRotation, GGroup::kRotation},
     {80, GWord::kRadiusMode, GGroup::kDiameter},
     {1870, GWord::kSmoothness, GGroup::kSmoothness},
+    {650, GWord::kMacroCall, GGroup::kMacro},
+    {660, GWord::kModalMacroCall, GGroup::kMacro},
+    {670, GWord::kNoMacroCall, GGroup::kMacro},
 };
 
 constexpr GTable make_g_table() {
@@ -137,8 +142,26 @@ constexpr MEntry kMEntries[] = {
     {100, 199, MWord::kUserCommand, MGroup::kUserCommand},
 };
 
+/// M words that a control may take as a wish to move or to go elsewhere in the program: mirror
+/// images, moves to home or to a switch, the program again, calls and interrupts, other kinematics.
+constexpr std::size_t kMovesElsewhere[] = {21, 22, 25, 47, 91, 92, 96, 97, 428, 429, 430};
+
+constexpr bool moves_elsewhere(std::size_t number) {
+  for (const std::size_t known : kMovesElsewhere) {
+    if (known == number) {
+      return true;
+    }
+  }
+  return false;
+}
+
 constexpr MTable make_m_table() {
   MTable table{};
+  for (std::size_t number = 0; number < table.size(); ++number) {
+    if (!moves_elsewhere(number)) {
+      table[number] = MCode{MWord::kMachineFunction, MGroup::kMachineFunction};
+    }
+  }
   for (const MEntry& entry : kMEntries) {
     for (std::size_t number = entry.first; number <= entry.last; ++number) {
       table[number] = MCode{entry.word, entry.group};
@@ -146,6 +169,10 @@ constexpr MTable make_m_table() {
   }
   table[98] = MCode{MWord::kCallSubprogram, MGroup::kSubprogram};
   table[99] = MCode{MWord::kReturnFromSubprogram, MGroup::kSubprogram};
+  table[70] = MCode{MWord::kSaveState, MGroup::kSavedState};
+  table[71] = MCode{MWord::kForgetState, MGroup::kSavedState};
+  table[72] = MCode{MWord::kRestoreState, MGroup::kSavedState};
+  table[73] = MCode{MWord::kSaveStateForReturn, MGroup::kSavedState};
   return table;
 }
 
@@ -165,8 +192,8 @@ std::size_t index_of(double number, double per_unit, std::size_t size) noexcept 
   return std::abs(scaled - rounded) < 1e-9 ? static_cast<std::size_t>(rounded) : size;
 }
 
-constexpr std::array<LetterKind, 26> make_kinds() {
-  std::array<LetterKind, 26> kinds{};
+constexpr std::array<LetterKind, kLetters> make_kinds() {
+  std::array<LetterKind, kLetters> kinds{};
   const auto set = [&kinds](std::string_view letters, LetterKind kind) {
     for (const char letter : letters) {
       kinds[static_cast<std::size_t>(letter - 'A')] = kind;
@@ -174,13 +201,14 @@ constexpr std::array<LetterKind, 26> make_kinds() {
   };
   set("GM", LetterKind::kCode);
   set("DEIJKPQRXYZ", LetterKind::kDecimal);
-  set("F", LetterKind::kPositive);
+  set(kPolarLetters, LetterKind::kDecimal);
+  set("F", LetterKind::kFeed);
   set("S", LetterKind::kNotNegative);
   set("HLNT", LetterKind::kCount);
   return kinds;
 }
 
-constexpr std::array<LetterKind, 26> kKinds = make_kinds();
+constexpr std::array<LetterKind, kLetters> kKinds = make_kinds();
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace twin::gcode {
 
@@ -48,6 +49,8 @@ enum class GWord : std::uint8_t {
   kPlaneYz,               ///< G19
   kInch,                  ///< G20
   kMillimetre,            ///< G21
+  kIsoInch,               ///< G70 of Mach and ISO 6983; a lathe's cycle has further words
+  kIsoMillimetre,         ///< G71
   kAbsolute,              ///< G90
   kIncremental,           ///< G91
   kAbsoluteCentres,       ///< G90.1
@@ -81,6 +84,9 @@ enum class GWord : std::uint8_t {
   kNoRotation,            ///< G69
   kRadiusMode,            ///< G08 of lathes: X is a radius, as it is anyway
   kSmoothness,            ///< G187: a wish about smoothness that changes no move
+  kMacroCall,             ///< G65, FANUC: a subprogram with arguments
+  kModalMacroCall,        ///< G66: the same behind every move
+  kNoMacroCall,           ///< G67
 };
 
 enum class GGroup : std::uint8_t {
@@ -106,8 +112,9 @@ enum class GGroup : std::uint8_t {
   kRotation,
   kSmoothness,
   kDiameter,
+  kMacro,
 };
-inline constexpr std::size_t kGGroups = 22;
+inline constexpr std::size_t kGGroups = 23;
 
 /// The M words this reader knows.
 enum class MWord : std::uint8_t {
@@ -121,9 +128,14 @@ enum class MWord : std::uint8_t {
   kOverride,              ///< M48 to M53: no motion
   kInputOutput,           ///< M62 to M68: no motion
   kClamp,                 ///< M10, M11: no motion
+  kMachineFunction,       ///< of the machine's builder, as M41 or M88: no motion
   kUserCommand,           ///< M100 to M199: a program of the user, which is not run
   kCallSubprogram,        ///< M98
   kReturnFromSubprogram,  ///< M99
+  kSaveState,             ///< M70
+  kForgetState,           ///< M71
+  kRestoreState,          ///< M72
+  kSaveStateForReturn,    ///< M73: restored where the subroutine ends
 };
 
 enum class MGroup : std::uint8_t {
@@ -134,10 +146,12 @@ enum class MGroup : std::uint8_t {
   kOverride,
   kInputOutput,
   kClamp,
+  kMachineFunction,
   kUserCommand,
   kSubprogram,
+  kSavedState,
 };
-inline constexpr std::size_t kMGroups = 9;
+inline constexpr std::size_t kMGroups = 11;
 
 /// Whether several words of a group may be on a line.
 constexpr bool may_repeat(MGroup group) noexcept {
@@ -167,17 +181,29 @@ std::string refused_g(double number);
 /// Why an M word is refused, by name if it has one.
 std::string refused_m(double number);
 
+/// Letters of LinuxCNC's polar words @ (distance from the origin) and ^ (angle in degrees): the two
+/// characters behind Z, so that they have places in tables of letters.
+inline constexpr char kPolarRadius = 'Z' + 1;
+inline constexpr char kPolarAngle = 'Z' + 2;
+inline constexpr std::string_view kPolarLetters = "[\\";
+inline constexpr std::size_t kLetters = 28;
+
+/// A letter as a program has it: @ and ^ for the polar ones.
+constexpr char shown(char letter) noexcept {
+  return letter == kPolarRadius ? '@' : letter == kPolarAngle ? '^' : letter;
+}
+
 /// What the number of a letter may be.
 enum class LetterKind : std::uint8_t {
   kRefused,      ///< not a letter of this reader
   kCode,         ///< G and M: looked up by find_g() and find_m()
-  kDecimal,      ///< D E I J K P Q R X Y Z: any number
-  kPositive,     ///< F: above zero
+  kDecimal,      ///< D E I J K P Q R X Y Z @ ^: any number
+  kFeed,         ///< F: zero or more, and above zero for a feed move
   kNotNegative,  ///< S: zero or more
   kCount,        ///< H, L, N, T: a whole number, zero or more
 };
 
-/// Kind of a letter from 'A' to 'Z'.
+/// Kind of a letter from 'A' to kPolarAngle.
 LetterKind kind_of(char letter) noexcept;
 
 /// Why a letter is refused, and what was expected.

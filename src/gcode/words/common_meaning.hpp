@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "gcode/reader_options.hpp"
 
 namespace twin::gcode {
@@ -13,9 +14,13 @@ class Notes;
 /// interpreter needs none, and notes what was meant.
 ///
 ///   G04 P   FANUC: milliseconds where P is written without a decimal point
+///   G70 G71 inches and millimetres where no word of a lathe's cycle is beside them: Mach, ISO 6983
 ///   G04 X   FANUC: the same as G04 P with a decimal point, in seconds
 /// A dwell of more than a minute is noted in any dialect. Source: FANUC, operator's manuals, "Dwell
 /// (G04)".
-void to_common_meaning(LineWords& words, Dialect dialect, std::int64_t line, Notes& notes);
+///
+/// @returns an error for a cycle of a lathe
+Expected<void> to_common_meaning(LineWords& words, Dialect dialect, std::int64_t line,
+                                 Notes& notes);
 
 }  // namespace twin::gcode

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -9,19 +10,20 @@
 #include "gcode/values/expression.hpp"
 #include "gcode/values/number.hpp"
 #include "gcode/values/parameters.hpp"
+#include "gcode/words/codes.hpp"
 
 namespace twin::gcode {
 namespace {
 
 std::string too_large(char letter) {
-  return fmt::format("the number of {} is too large: expected at most {:.0f}", letter,
+  return fmt::format("the number of {} is too large: expected at most {:.0f}", shown(letter),
                      kLargestNumber);
 }
 
 tl::unexpected<Error> exponent(char letter, int column) {
   return fail_at(column, fmt::format("{} has a number with an exponent: expected a plain decimal "
                                      "number such as {}0.001",
-                                     letter, letter));
+                                     shown(letter), shown(letter)));
 }
 
 /// True if a value that is computed begins a text: # or [, with a sign or not, or two letters and a
@@ -48,7 +50,13 @@ Lexer::Found Lexer::next(Word& word) {
   word.letter = upper(line_[at_]);
   word.column = column();
   if (word.letter < 'A' || word.letter > 'Z') {
-    return fault(unexpected_character().value());
+    if (word.letter == '$' && at_ > 0) {
+      return step_over_spindle(word);
+    }
+    if (word.letter != '@' && word.letter != '^') {
+      return fault(unexpected_character().value());
+    }
+    word.letter = word.letter == '@' ? kPolarRadius : kPolarAngle;
   }
   ++at_;
   skip_blanks(line_, at_);
@@ -66,6 +74,22 @@ Lexer::Found Lexer::next(Word& word) {
 Lexer::Found Lexer::fault(Error error) {
   fault_ = std::move(error);
   return Found::kFault;
+}
+
+/// $ and the number of a spindle, which LinuxCNC's M03 to M05 may have.
+Lexer::Found Lexer::step_over_spindle(Word& word) {
+  ++at_;
+  auto number = read_value(line_, at_, parameters_);
+  return number ? next(word) : fault(std::move(number).error());
+}
+
+void Lexer::skip_fault() noexcept {
+  fault_.reset();
+  if (at_ < line_.size() && !is_blank(line_[at_])) {
+    at_ = std::min(line_.find_first_of(" \t", at_), line_.size());
+  } else if (at_ < line_.size()) {
+    ++at_;
+  }
 }
 
 /// A line number, a number with blanks behind its sign, a value that is computed, or none.
@@ -97,9 +121,15 @@ Lexer::Found Lexer::read_unusual_number(const Number& number, Word& word) {
 }
 
 Lexer::Found Lexer::compute(Word& word) {
-  auto value = read_value(line_, at_, parameters_);
+  // Neither moves anything, so what only the machine knows may be 0 there.
+  parameters_.allow_unknown(word.letter == 'F' || word.letter == 'S');
+  auto value = read_value_or_null(line_, at_, parameters_);
+  parameters_.allow_unknown(false);
   if (!value) {
     return fault(std::move(value).error());
+  }
+  if (is_null(*value)) {
+    return next(word);
   }
   if (!(std::abs(*value) <= kLargestNumber)) {
     return fault(fail_at(word.column, too_large(word.letter)).value());
@@ -154,14 +184,14 @@ tl::unexpected<Error> Lexer::no_number(char letter, int column_of_letter) const 
   if (at_ == line_.size()) {
     return fail_at(
         column_of_letter,
-        fmt::format("{} has no number: expected one before the end of the line", letter));
+        fmt::format("{} has no number: expected one before the end of the line", shown(letter)));
   }
   const char c = line_[at_];
   if (!is_printable(c)) {
     return fail_at(column(), not_text(c));
   }
-  return fail_at(column_of_letter, fmt::format("{} has no number: expected one, found '{}'", letter,
-                                               start_of(line_.substr(at_))));
+  return fail_at(column_of_letter, fmt::format("{} has no number: expected one, found '{}'",
+                                               shown(letter), start_of(line_.substr(at_))));
 }
 
 }  // namespace twin::gcode

@@ -17,7 +17,7 @@ struct Number;
 
 /// One word of an NC line: a letter and its number.
 struct Word {
-  char letter = ' ';       ///< 'A' to 'Z', whatever the case in the program
+  char letter = ' ';       ///< 'A' to kPolarAngle, whatever the case in the program
   double value = 0.0;      ///< in the program's own units
   int column = 0;          ///< column of the letter, in bytes from 1
   bool has_point = false;  ///< the number is written with a decimal point
@@ -26,11 +26,12 @@ struct Word {
 /// The words of one line, one at a time.
 ///
 ///   line       = { blank | comment | word | assignment }
-///   word       = letter { blank } ( [ sign ] digits-with-point | value )
+///   word       = ( letter | @ | ^ | $ ) { blank } ( [ sign ] digits-with-point | value )
 ///   assignment = # value = value
 /// A comment goes from ( to ), or from ; to the end of the line (read_comment()). Values that are
-/// not plain numbers are computed (read_value()); assignments are kept in the parameters for
-/// Parameters::commit().
+/// not plain numbers are computed (read_value()); a word whose value is null is left out,
+/// and so is $, the number of a spindle.
+/// Assignments are kept in the parameters for Parameters::commit().
 class Lexer {
  public:
   /// @param line        one line without its end; must outlive the lexer
@@ -42,6 +43,9 @@ class Lexer {
 
   /// Reads the next word. A plain status instead of an Expected: this is the innermost loop.
   Found next(Word& word);
+
+  /// Steps over the word in which next() has found a fault.
+  void skip_fault() noexcept;
 
   /// Why next() gave kFault, with its column.
   Error take_fault() { return fault_ ? *std::move(fault_) : Error{}; }
@@ -55,6 +59,7 @@ class Lexer {
   bool skip_what_is_no_word();
   Found read_unusual_number(const Number& number, Word& word);
   Found compute(Word& word);
+  Found step_over_spindle(Word& word);
   Found fault(Error error);
   tl::unexpected<Error> unexpected_character() const;
   tl::unexpected<Error> no_number(char letter, int column) const;

@@ -11,6 +11,9 @@
 namespace twin::gcode {
 namespace {
 
+constexpr std::uint32_t kPlainLetters = LineWords::set_of("IJKRXYZ");
+constexpr std::string_view kRotary = "ABCUVW";
+
 std::string twice(char letter, double first, double second) {
   return fmt::format(
       "{}{:.10g} and {}{:.10g} on one line belong to the same modal group: expected one", letter,
@@ -19,7 +22,7 @@ std::string twice(char letter, double first, double second) {
 
 Expected<void> check_number(const Word& word) {
   const LetterKind kind = kind_of(word.letter);
-  if (kind == LetterKind::kPositive && !(word.value > 0.0)) {
+  if (kind == LetterKind::kFeed && word.value < 0.0) {
     return fail_at(word.column, fmt::format("{}{:.10g}: expected a feedrate above zero, in units "
                                             "per minute",
                                             word.letter, word.value));
@@ -37,6 +40,12 @@ Expected<void> check_number(const Word& word) {
 
 }  // namespace
 
+/// Whether a word needs no look: X Y Z I J K R, not there yet and not left out.
+bool LineWords::is_plain(const Word& word) const noexcept {
+  const std::uint32_t letter = bit(index(word.letter));
+  return (letter & kPlainLetters & ~letters_ & ~ignored_) != 0 && !has(GGroup::kMacro);
+}
+
 LineWords::LineWords(std::string_view ignored) {
   for (const char letter : ignored) {
     ignored_ |= bit(index(letter));
@@ -50,7 +59,11 @@ Expected<void> LineWords::read(std::string_view line, Parameters& parameters) {
   while (true) {
     switch (lexer.next(word)) {
       case Lexer::Found::kWord:
-        TWIN_CHECK(add(word));
+        if (is_plain(word)) {
+          set(word.letter, word.value, word.column);
+        } else {
+          TWIN_CHECK(add(word));
+        }
         break;
       case Lexer::Found::kFault:
         return tl::unexpected<Error>(lexer.take_fault());
@@ -62,7 +75,39 @@ Expected<void> LineWords::read(std::string_view line, Parameters& parameters) {
   }
 }
 
+bool LineWords::read_leniently(std::string_view line, Parameters& parameters) {
+  letters_ = g_groups_ = m_groups_ = left_out_ = 0;
+  comment_ = {};
+  bool is_whole = true;
+  Lexer lexer(line, parameters);
+  Word word;
+  for (Lexer::Found found = lexer.next(word); found != Lexer::Found::kEnd;
+       found = lexer.next(word)) {
+    if (found == Lexer::Found::kFault) {
+      lexer.skip_fault();
+      is_whole = false;
+    } else if (!add(word) && word.letter >= 'X' && word.letter <= 'Z') {
+      is_whole = false;
+    }
+  }
+  return is_whole;
+}
+
+/// A word behind G65 or G66 is an argument of the macro, whatever it means elsewhere.
+Expected<void> LineWords::add_argument(const Word& word) {
+  if (has(word.letter)) {
+    return fail_at(word.column,
+                   fmt::format("{} appears twice behind G65 or G66: expected each argument once",
+                               shown(word.letter)));
+  }
+  set(word.letter, word.value, word.column);
+  return {};
+}
+
 Expected<void> LineWords::add(const Word& word) {
+  if (word.letter != 'N' && has(GGroup::kMacro) && g(GGroup::kMacro) != GWord::kNoMacroCall) {
+    return add_argument(word);
+  }
   if (word.letter == 'G') {
     return add_g(word);
   }
@@ -74,11 +119,15 @@ Expected<void> LineWords::add(const Word& word) {
     return {};
   }
   if (kind_of(word.letter) == LetterKind::kRefused) {
+    if (word.value == 0.0 && kRotary.find(word.letter) != std::string_view::npos) {
+      left_out_ |= bit(index(word.letter));  // an axis that never moves stands at 0
+      return {};
+    }
     return fail_at(word.column, refused_letter(word.letter));
   }
   if (has(word.letter)) {
     return fail_at(word.column,
-                   fmt::format("{} appears twice on the line: expected once", word.letter));
+                   fmt::format("{} appears twice on the line: expected once", shown(word.letter)));
   }
   letters_ |= bit(index(word.letter));
   value_[index(word.letter)] = word.value;

@@ -27,16 +27,30 @@ class LineWords {
   /// @returns an error with its column for a word that no line may have
   Expected<void> read(std::string_view line, Parameters& parameters);
 
+  /// Reads what can be read of a line that read() has refused.
+  /// @returns false if a word was left out that may have been of X, Y or Z
+  bool read_leniently(std::string_view line, Parameters& parameters);
+
   /// The last comment of the line without its parentheses; valid as long as the line's text.
   std::string_view comment() const noexcept { return comment_; }
   CommentOddity oddity() const noexcept { return oddity_; }
   /// True if a word of this letter was left out of the line.
   bool has_left_out(char letter) const noexcept { return (left_out_ & bit(index(letter))) != 0; }
+  /// True if any word was left out, so that a line may name no axis that is there.
+  bool has_left_out() const noexcept { return left_out_ != 0; }
   /// True if the line has a comment, or had words left out.
   bool is_unusual() const noexcept { return !comment_.empty() || left_out_ != 0; }
 
   /// Takes a word out of the line.
   void remove(char letter) noexcept { letters_ &= ~bit(index(letter)); }
+  /// Puts a word into the line, in place of the one that it has.
+  void set(char letter, double value, int column) noexcept {
+    letters_ |= bit(index(letter));
+    value_[index(letter)] = value;
+    column_[index(letter)] = column;
+  }
+  /// Gives the word of a group another meaning; only if has(group).
+  void set(GGroup group, GWord word) noexcept { g_[index(group)] = word; }
   /// Gives a word another number; only if has(letter).
   void set_value(char letter, double value) noexcept { value_[index(letter)] = value; }
   /// Makes one word another.
@@ -46,6 +60,9 @@ class LineWords {
     column_[index(to)] = column_[index(from)];
   }
   void remove(MGroup group) noexcept { m_groups_ &= ~bit(index(group)); }
+  void remove(GGroup group) noexcept { g_groups_ &= ~bit(index(group)); }
+  /// True if the line has a G word of another group than this.
+  bool has_other_than(GGroup group) const noexcept { return (g_groups_ & ~bit(index(group))) != 0; }
   /// True if the P word is written with a decimal point.
   bool has_point_in_p() const noexcept { return has_point_in_p_; }
 
@@ -76,7 +93,7 @@ class LineWords {
   }
   std::uint32_t g_groups() const noexcept { return g_groups_; }
 
-  /// True if the line has one of these letters, each from 'A' to 'Z'.
+  /// True if the line has one of these letters, each from 'A' to kPolarAngle.
   bool has_any(std::string_view letters) const noexcept {
     return (letters_ & set_of(letters)) != 0;
   }
@@ -117,7 +134,9 @@ class LineWords {
   }
   static constexpr std::uint32_t bit(std::size_t place) noexcept { return 1U << place; }
 
+  bool is_plain(const Word& word) const noexcept;
   Expected<void> add(const Word& word);
+  Expected<void> add_argument(const Word& word);
   Expected<void> add_g(const Word& word);
   Expected<void> add_m(const Word& word);
 
@@ -126,8 +145,8 @@ class LineWords {
   std::uint32_t letters_ = 0;
   std::uint32_t g_groups_ = 0;
   std::uint32_t m_groups_ = 0;
-  std::array<double, 26> value_{};
-  std::array<int, 26> column_{};
+  std::array<double, kLetters> value_{};
+  std::array<int, kLetters> column_{};
   std::array<GWord, kGGroups> g_{};
   std::array<double, kGGroups> g_number_{};
   std::array<int, kGGroups> g_column_{};

@@ -37,9 +37,8 @@ constexpr Refused kRefusedG[] = {
     {54.2, 54.9, "dynamic work offset", "there are no rotary axes"},
     {60.0, 60.0, "approach from one direction", "expected a G00 to the place"},
     {62.0, 63.0, "corner override or tapping mode", "expected G61 or G64"},
-    {65.0, 67.0, "macro call", kWriteOut},
     {68.1, 68.9, "tilted plane", "there are no rotary axes"},
-    {70.0, 72.9, "lathe cycle", "expected a program for a mill"},
+    {70.1, 72.9, "lathe cycle", "expected a program for a mill"},
     {76.0, 76.9, "threading or fine boring cycle", kWriteOut},
     {75.0, 79.0, "canned cycle", kWriteOut},
     {87.0, 87.0, "back boring", "controls do not agree on its moves; expected them written out"},
@@ -47,9 +46,13 @@ constexpr Refused kRefusedG[] = {
 };
 
 constexpr Refused kRefusedM[] = {
-    {70.0, 73.0, "saving of the modal state", "leave it out"},
+    {21.0, 22.0, "mirror image on some controls", "expected G51.1"},
+    {25.0, 25.0, "move to home on some controls", "expected G28"},
+    {47.0, 47.0, "the program again", "expected a loop"},
+    {91.0, 92.0, "move to a switch, or machine coordinates, on some controls", "expected G53"},
+    {96.0, 96.0, "interrupt by a macro", kWriteOut},
     {97.0, 97.0, "subprogram call", kWriteOut},
-    {428.0, 429.0, "switch of kinematics", "there are no rotary axes"},
+    {428.0, 430.0, "switch of kinematics", "there are no rotary axes"},
 };
 
 std::string refused(char letter, double number, std::span<const Refused> table,
@@ -74,8 +77,7 @@ std::string refused_g(double number) {
 }
 
 std::string refused_m(double number) {
-  return refused('M', number, kRefusedM,
-                 "M00 to M11, M19, M29, M30, M48 to M53, M60 to M68 or M100 to M199");
+  return refused('M', number, kRefusedM, "a whole number from M00 to M999");
 }
 
 std::string refused_letter(char letter) {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/vec.hpp"
-#include "results/trace/csv_reader.hpp"
 #include "results/trace/decimator.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::pictures {
 namespace {
@@ -153,7 +153,7 @@ std::optional<PageColumn> limit_of(const Columns& columns, const std::filesystem
 
 Expected<PageRows> read_page_rows(const std::filesystem::path& trace,
                                   const std::filesystem::path& limits, std::size_t most) {
-  TWIN_TRY(results::CsvReader reader, results::CsvReader::open(trace));
+  TWIN_TRY(results::TraceReader reader, results::TraceReader::open(trace));
   std::vector<std::string_view> names;
   std::vector<std::size_t> watched;
   PageRows page;

@@ -16,8 +16,8 @@
 #include "pictures/plot/motion_filter.hpp"
 #include "pictures/plot/normal_error.hpp"
 #include "results/trace/columns.hpp"
-#include "results/trace/csv_reader.hpp"
 #include "results/trace/decimator.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::pictures {
 namespace {
@@ -228,7 +228,7 @@ Expected<void> save_programmed(const std::filesystem::path& folder, std::span<co
 Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
                                         const std::filesystem::path& folder,
                                         std::span<const Vec2> programmed, bool plan_only) {
-  TWIN_TRY(results::CsvReader reader, results::CsvReader::open(trace));
+  TWIN_TRY(results::TraceReader reader, results::TraceReader::open(trace));
   const std::size_t inputs = plan_only ? kPlanInputs : kRunInputs;
   TWIN_CHECK(reader.select(std::span(kFieldNames).first(inputs)));
   Stream stream(plan_only);
@@ -239,9 +239,7 @@ Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
       break;
     }
     if (!stream.push(record)) {
-      return tl::unexpected<Error>(Error{ErrorCode::kFile,
-                                         fmt::format("t_s {} s does not ascend", record[kT]),
-                                         trace.string(), reader.line(), 1});
+      return reader.wrong_row(fmt::format("t_s {} s does not ascend", record[kT]));
     }
   }
   auto summary = stream.finish(folder);

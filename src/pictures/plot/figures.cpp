@@ -8,6 +8,7 @@
 #include "pictures/plot/gnuplot.hpp"
 #include "pictures/plot/scripts.hpp"
 #include "results/trace/columns.hpp"
+#include "results/trace/trace_files.hpp"
 
 namespace twin::pictures {
 
@@ -77,9 +78,9 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   }
   TWIN_TRY(DataSummary data, write_figure_data(input.directory / input.trace, folder,
                                                input.programmed, input.plan_only));
-  const RunOrigin origin = read_run_origin(
-      input.directory /
-      (input.trace == results::kPartialTraceName ? "summary.partial.json" : "summary.json"));
+  const RunOrigin origin = read_run_origin(input.directory / (results::is_partial_trace(input.trace)
+                                                                  ? "summary.partial.json"
+                                                                  : "summary.json"));
   data.acceleration_limit = origin.acceleration;
   data.jerk_limit = origin.jerk;
   const std::string title = title_of(input.title, origin);

@@ -35,7 +35,7 @@ struct Box {
 }  // namespace
 
 Expected<TraceRows> TraceRows::open(const std::filesystem::path& trace_csv) {
-  auto reader = results::CsvReader::open(trace_csv);
+  auto reader = results::TraceReader::open(trace_csv);
   if (!reader) {
     return tl::unexpected(std::move(reader.error()));
   }

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::pictures::video {
 
@@ -27,9 +27,9 @@ class TraceRows {
   bool has_error() const noexcept { return has_error_; }  ///< the trace has contour errors
 
  private:
-  explicit TraceRows(results::CsvReader&& reader) : reader_(std::move(reader)) {}
+  explicit TraceRows(results::TraceReader&& reader) : reader_(std::move(reader)) {}
 
-  results::CsvReader reader_;
+  results::TraceReader reader_;
   bool has_error_ = false;
 };
 

@@ -1,14 +1,8 @@
 #include "pictures/video/video.hpp"
 
-#include <dlfcn.h>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "core/atomic_file.hpp"
+#include "core/module.hpp"
 #include "core/temporary_name.hpp"
-#include "core/this_program.hpp"
 #include "pictures/video/renderer.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -30,59 +24,28 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT(bugprone-reser
 namespace twin::pictures::video {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr Module kRenderer{"twin-video.so", kRenderVideoName, "the video's renderer"};
 
-constexpr const char* kModuleName = "twin-video.so";
-
-/// The module's function; the module stays loaded, because OpenGL drivers do not survive being
-/// unloaded.
-Expected<RenderVideo> load_module(const fs::path& file) {
-  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const function = module == nullptr ? nullptr : dlsym(module, kRenderVideoName);
-  if (function == nullptr) {
-    return tl::unexpected(Error{ErrorCode::kFile,
-                                fmt::format("the video's renderer cannot be loaded: {}", dlerror()),
-                                file.string(), 0, 0});
-  }
-  return reinterpret_cast<RenderVideo>(function);
+Expected<VideoReport> write_video_by(void* function, const VideoInput& input) {
+  const TemporaryName unfinished(temporary_of(input.output));  // the module has a list of its own
+  Expected<VideoReport> report;
+  reinterpret_cast<RenderVideo>(function)(&input, &report);
+  return report;
 }
 
 }  // namespace
 
-std::vector<fs::path> video_module_places() {
-  std::vector<fs::path> places;
-  for (const fs::path& folder : own_folders()) {
-    places.push_back(folder / "twin" / kModuleName);
-    places.push_back(folder.parent_path() / "lib" / "twin" / kModuleName);
-    places.push_back(folder.parent_path() / TWIN_INSTALL_LIBDIR / "twin" / kModuleName);
-  }
-  places.emplace_back(fs::path(TWIN_BINARY_DIR) / "lib" / "twin" / kModuleName);
-  places.emplace_back(fs::path(TWIN_INSTALL_FULL_LIBDIR) / "twin" / kModuleName);
-  return places;
-}
+std::vector<std::filesystem::path> video_module_places() { return module_places(kRenderer.file); }
 
-Expected<VideoReport> write_video_with(const fs::path& module, const VideoInput& input) {
-  TWIN_TRY(const RenderVideo render, load_module(module));
-  const TemporaryName unfinished(temporary_of(input.output));  // the module has a list of its own
-  Expected<VideoReport> report;
-  render(&input, &report);
-  return report;
+Expected<VideoReport> write_video_with(const std::filesystem::path& module,
+                                       const VideoInput& input) {
+  TWIN_TRY(void* const function, load_module_from(module, kRenderer));
+  return write_video_by(function, input);
 }
 
 Expected<VideoReport> write_video(const VideoInput& input) {
-  const std::vector<fs::path> places = video_module_places();
-  const auto found = std::ranges::find_if(places, [](const fs::path& place) {
-    std::error_code ignored;
-    return fs::exists(place, ignored);
-  });
-  if (found == places.end()) {
-    std::string message = "is missing; it makes the video, and was looked for at";
-    for (const fs::path& place : places) {
-      message += " " + place.string();
-    }
-    return tl::unexpected(Error{ErrorCode::kFile, std::move(message), kModuleName, 0, 0});
-  }
-  return write_video_with(*found, input);
+  TWIN_TRY(void* const function, load_module(kRenderer));
+  return write_video_by(function, input);
 }
 
 }  // namespace twin::pictures::video

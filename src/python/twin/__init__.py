@@ -37,13 +37,17 @@ __all__ = [
     "SetPoint",
     "SetPoints",
     "Trace",
+    "Tuning",
     "check",
     "circle",
     "compare",
     "convert",
     "identify",
     "plan",
+    "read_trace",
+    "report",
     "run",
+    "tune",
 ]
 
 _SECONDS_PER_MINUTE = 60.0
@@ -97,6 +101,7 @@ def run(
     keep_trace=True,
     wall_clock=False,
     folder=None,
+    trace="csv",
 ):
     """Plans a program, moves the machine along it and records every period.
 
@@ -113,7 +118,8 @@ def run(
         panel: a Panel, by which other threads override, hold and stop the motion
         keep_trace: whether the result gets the trace in memory
         wall_clock: whether a period takes a period of the wall clock
-        folder: where trace.csv and summary.json are written while it runs; None: no files
+        folder: where trace and summary.json are written while it runs; None: no files
+        trace: files of the trace in that folder: "csv", "hdf5", "both" or "none"
 
     Returns:
         Result; its failure says why a run ended early
@@ -122,9 +128,10 @@ def run(
         Error: the run could not begin; nothing has moved
         KeyboardInterrupt: after the machine has braked to rest on the path
     """
+    text, settings = _program(program, feedrate_mm_per_min), _settings(machine)
     outcome = _twin.run(
-        _program(program, feedrate_mm_per_min),
-        _settings(machine),
+        text,
+        settings,
         hal=hal,
         faults=list(faults),
         overrides=[(float(time), float(percent)) for time, percent in overrides],
@@ -133,8 +140,17 @@ def run(
         wall_clock=wall_clock,
         panel=panel,
         servo=servo,
+        trace_files=trace,
     )
-    return Result(outcome)
+    return Result(outcome, text, settings)
+
+
+def read_trace(file):
+    """Reads a trace from a file, CSV or HDF5 by its content. Returns a Trace.
+
+    The file may be any table of numbers with named columns. Units are known of traces of run() alone.
+    """
+    return Trace(_twin.read_trace(os.fspath(file)))
 
 
 def identify(
@@ -143,7 +159,7 @@ def identify(
     """Fits a machine's parameters to traces recorded on it.
 
     Args:
-        traces: a CSV file, or several; each with even time, set points and measured positions
+        traces: a CSV or HDF5 file, or several; each with even time, set points and measured positions
         machine: settings that the search begins at, and that what is not identified keeps
         columns: which columns are which signal, "SIGNAL=COLUMN[:UNIT],..."; "": as trace.csv
         fixed: keys that keep their value
@@ -210,6 +226,111 @@ def circle(machine="xy_table.toml", *, radius_mm=20.0, feedrate_mm_per_min=3000.
                                 feedrate_mm_per_min / _SECONDS_PER_MINUTE,
                                 unused if folder is None else os.fspath(folder))
     return json.loads(found)
+
+
+def report(folders, file=None, *, programs=()):
+    """Writes the page of a run, or of several side by side, as `twin report` does.
+
+    Args:
+        folders: folder of a run with its trace and summary, or several
+        file: the page; None: report.html in the folder, or of several in renders
+        programs: the programs that were run, as check() has them, for their text and path; those that
+            twin brings are found without
+
+    Returns:
+        the name of the page
+    """
+    many = [folders] if isinstance(folders, (str, os.PathLike)) else list(folders)
+    if file is None:
+        file = os.path.join(many[0] if len(many) == 1 else "renders", "report.html")
+    given = [programs] if isinstance(programs, (str, os.PathLike, Program)) else programs
+    _twin.write_report([os.fspath(folder) for folder in many], os.fspath(file),
+                       [_program(program, None) for program in given])
+    return os.fspath(file)
+
+
+class Tuning:
+    """What a search for settings has found.
+
+    Attributes:
+        machine: the Machine with the settings that were found
+        settings: a dict of the tuned keys and their values
+        report: all of tune.json as a dict: figures and margins before and after, on every program
+        table: what `twin tune` prints
+    """
+
+    def __init__(self, table, text, machine_file):
+        self.table = table
+        self.report = json.loads(text)
+        self.settings = self.report["settings"]
+        self.machine = Machine(machine_file)
+
+    def __repr__(self):
+        return f"Tuning({self.settings})"
+
+
+def tune(
+    programs,
+    machine="xy_table.toml",
+    *,
+    folder,
+    within_um=None,
+    vary=None,
+    gain_margin_dB=6.0,
+    phase_margin_deg=30.0,
+    also=(),
+    trials=2000,
+    seed=1,
+    workers=None,
+    store=None,
+    feedrate_mm_per_min=None,
+):
+    """Searches for the servo gains and planner settings that are best for some programs, by CMA-ES
+    over whole runs on the simulated table.
+
+    Called again after it was interrupted or killed, it goes on from what the store holds.
+
+    Args:
+        programs: a file, the name of a program that twin brings, or several
+        machine: a Machine, or the name of a machine file, with the settings that the search begins at
+        folder: gets best.toml, tune.json, results.csv, index.html, and the store
+        within_um: None: least contour error; a number: least machining time within this contour error
+        vary: a dict of keys and ranges, as in {"servo.x.kp_per_s": (100, 500)}; None: the usual ones
+        gain_margin_dB, phase_margin_deg: least margins of both position loops
+        also: programs that are judged at the end and not tuned on
+        trials: combinations of settings at most
+        seed: of the search; the same seed gives the same result, on any number of cores
+        workers: trials at a time; None: as many as there are cores
+        store: folder of the runs; None: a folder in `folder`
+        feedrate_mm_per_min: replaces the programs' F words
+
+    Returns:
+        Tuning
+    """
+    many = [programs] if isinstance(programs, (str, os.PathLike)) else list(programs)
+    if isinstance(machine, Machine):
+        os.makedirs(folder, exist_ok=True)
+        file = os.path.join(folder, "start.toml")
+        machine.save(file)
+        machine = file
+    found = _twin.tune(
+        [os.fspath(program) for program in many],
+        os.fspath(machine),
+        feedrate_mm_per_s=None
+        if feedrate_mm_per_min is None
+        else feedrate_mm_per_min / _SECONDS_PER_MINUTE,
+        within_um=within_um,
+        gain_margin_dB=gain_margin_dB,
+        phase_margin_deg=phase_margin_deg,
+        ranges=[f"{key}={low}:{high}" for key, (low, high) in (vary or {}).items()],
+        further=[os.fspath(program) for program in also],
+        trials=trials,
+        seed=seed,
+        workers=workers or 0,
+        store="" if store is None else os.fspath(store),
+        folder=os.fspath(folder),
+    )
+    return Tuning(*found)
 
 
 def convert(program, to, machine="xy_table.toml", *, feedrate_mm_per_min=None):

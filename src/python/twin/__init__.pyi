@@ -12,6 +12,7 @@ _Path = Union[str, "os.PathLike[str]"]
 _Value = Union[float, str, bool, Sequence[float]]
 _Vector2 = tuple[float, float]
 _Vector3 = tuple[float, float, float]
+_TraceFiles = Literal["csv", "hdf5", "both", "none"]
 _Hal = Literal["mujoco", "ideal", "emulated_rig"]
 _Servo = Callable[["SetPoint", _Vector2], Sequence[float]]
 
@@ -120,7 +121,7 @@ class Result:
     failure: Optional[Error]
     @property
     def trace(self) -> Trace: ...
-    def save(self, folder: _Path) -> None: ...
+    def save(self, folder: _Path, trace: _TraceFiles = "csv") -> None: ...
 
 class Identification:
     machine: Machine
@@ -228,7 +229,9 @@ def run(
     keep_trace: bool = True,
     wall_clock: bool = False,
     folder: Optional[_Path] = None,
+    trace: _TraceFiles = "csv",
 ) -> Result: ...
+def read_trace(file: _Path) -> Trace: ...
 def compare(
     programs: Union[_Path, Program, Iterable[Union[_Path, Program]]],
     machines: Mapping[str, Machine],
@@ -261,3 +264,32 @@ def identify(
     evaluations: int = 0,
     seed: int = 1,
 ) -> Identification: ...
+def report(
+    folders: Union[_Path, Iterable[_Path]],
+    file: Optional[_Path] = None,
+    *,
+    programs: Union[_Path, Program, Iterable[Union[_Path, Program]]] = (),
+) -> str: ...
+
+class Tuning:
+    machine: Machine
+    settings: dict[str, float]
+    report: dict[str, Any]
+    table: str
+
+def tune(
+    programs: Union[_Path, Iterable[_Path]],
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    folder: _Path,
+    within_um: Optional[float] = None,
+    vary: Optional[Mapping[str, tuple[float, float]]] = None,
+    gain_margin_dB: float = 6.0,
+    phase_margin_deg: float = 30.0,
+    also: Iterable[_Path] = (),
+    trials: int = 2000,
+    seed: int = 1,
+    workers: Optional[int] = None,
+    store: Optional[_Path] = None,
+    feedrate_mm_per_min: Optional[float] = None,
+) -> Tuning: ...

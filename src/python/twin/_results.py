@@ -6,29 +6,6 @@ from collections.abc import Mapping
 
 from . import _twin
 
-_UNITS = {
-    "mm_per_s3": "mm/s^3",
-    "mm_per_s2": "mm/s^2",
-    "mm_per_s": "mm/s",
-    "per_s": "1/s",
-    "counts": "counts",
-    "percent": "%",
-    "mm": "mm",
-    "um": "um",
-    "ms": "ms",
-    "us": "us",
-    "Nm": "N m",
-    "N": "N",
-    "s": "s",
-    "V": "V",
-}
-
-
-def unit_of(column):
-    """The unit at the end of a column's name, such as "mm" of "x_cmd_mm"; "" if there is none."""
-    return next((unit for end, unit in _UNITS.items() if column.endswith("_" + end)), "")
-
-
 class Trace(Mapping):
     """The trace of a run: a mapping from column names to NumPy arrays, one value a period.
 
@@ -61,8 +38,8 @@ class Trace(Mapping):
 
     @property
     def units(self):
-        """The unit of each column that has one: ``{"x_enc_mm": "mm", ...}``."""
-        return {column: unit_of(column) for column in self if unit_of(column)}
+        """The unit of each column that has one, as UCUM writes it: ``{"x_enc_mm": "mm", ...}``."""
+        return self._trace.units
 
     @property
     def rows(self):
@@ -101,8 +78,9 @@ class Result:
         failure: the Error that ended the run early, or None if it reached the end
     """
 
-    def __init__(self, outcome):
+    def __init__(self, outcome, program, settings):
         self._json = outcome.summary
+        self._origin = program, settings
         self.summary = json.loads(outcome.summary)
         self.table = outcome.table
         self.trace = None if outcome.trace is None else Trace(outcome.trace)
@@ -112,15 +90,25 @@ class Result:
         how = "complete" if self.failure is None else f"ended early: {self.failure}"
         return f"Result({self.summary['program']}, {how})"
 
-    def save(self, folder):
-        """Writes trace.csv and summary.json into a folder, as `twin run --no-plots` does.
+    def save(self, folder, trace="csv"):
+        """Writes trace and summary.json into a folder, as `twin run --no-plots` does.
+
+        Args:
+            folder: made if it is missing
+            trace: files of the trace: "csv", "hdf5", "both" or "none"
 
         Raises:
             Error: no trace was kept, or a file cannot be written
         """
-        if self.trace is None:
+        if trace not in ("csv", "hdf5", "both", "none"):
+            raise _twin.Error(f'trace is "{trace}"; expected csv, hdf5, both or none')
+        if self.trace is None and trace != "none":
             raise _twin.Error("this run has kept no trace: run it with keep_trace=True")
-        self.trace.write_csv(folder)
+        os.makedirs(folder, exist_ok=True)
+        if trace in ("csv", "both"):
+            self.trace.write_csv(folder)
+        if trace in ("hdf5", "both"):
+            self.trace._trace.write_hdf5(*self._origin, self._json, os.fspath(folder))
         name = "summary.json" if self.failure is None else "summary.partial.json"
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(self._json)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/limits.hpp"
@@ -155,7 +156,9 @@ struct Summary {
   std::string version;             ///< version of twin that made the run, as in "0.9.0"
   std::string command;             ///< the command line, or a caller's own words; may be empty
   std::string program_sha256;      ///< checksum of the NC program, 64 hexadecimal digits
-  std::vector<Setting> settings;   ///< all settings of the machine file, as used
+  /// Files of subprograms that the program called, each with its checksum.
+  std::vector<std::pair<std::string, std::string>> subprograms;
+  std::vector<Setting> settings;  ///< all settings of the machine file, as used
 };
 
 /// Text of summary.json: keys in a fixed order, nine significant digits, the same bytes for the
@@ -164,6 +167,12 @@ struct Summary {
 /// The numbers are those of quantities(). A number that is not finite is written as null, and what
 /// a run does not have is left out. Settings keep all the digits of the machine file.
 std::string to_json(const Summary& summary);
+
+/// The same without what differs from one computation of the same run to the next: computing times
+/// and the command line.
+std::string to_reproducible_json(const Summary& summary);
+/// The text of a summary.json without them.
+std::string reproducible(const std::string& summary_json);
 
 /// The table for the terminal: quantities with units, peaks beside their limits.
 std::string to_table(const Summary& summary, const Limits& limits);

@@ -94,6 +94,9 @@ void add_origin(Json& json, const Summary& summary) {
   json["version"] = summary.version;
   json["command"] = summary.command;
   json["program_sha256"] = summary.program_sha256;
+  for (const auto& [file, sha256] : summary.subprograms) {
+    json["subprograms"].push_back({{"file", file}, {"sha256", sha256}});
+  }
   json["settings"] = json_of(summary.settings);
 }
 
@@ -133,5 +136,15 @@ std::string to_json(const Summary& summary) {
   add_origin(json, summary);
   return to_text(json);
 }
+
+std::string reproducible(const std::string& summary_json) {
+  Json json = Json::parse(summary_json);
+  for (const char* key : {"cycle_time_us", "real_time_factor", "command"}) {
+    json.erase(key);
+  }
+  return to_text(json);
+}
+
+std::string to_reproducible_json(const Summary& summary) { return reproducible(to_json(summary)); }
 
 }  // namespace twin::results

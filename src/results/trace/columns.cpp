@@ -1,7 +1,6 @@
 #include "results/trace/columns.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +13,13 @@ namespace {
 
 constexpr std::size_t kAll = kColumns.size() + kMoreColumns.size();
 
-constexpr std::string_view column_name(std::size_t column) {
+constexpr const Column& column_at(std::size_t column) {
   return column < kColumns.size() ? kColumns[column] : kMoreColumns[column - kColumns.size()];
 }
 
 constexpr std::size_t column_of(std::string_view name) {
   std::size_t column = 0;
-  while (column < kAll && column_name(column) != name) {
+  while (column < kAll && column_at(column).name != name) {
     ++column;
   }
   return column;
@@ -28,9 +27,13 @@ constexpr std::size_t column_of(std::string_view name) {
 
 constexpr std::size_t kFirstForce = column_of("x_torque_Nm");
 
-bool is_whole(std::string_view name) {
-  return name == "segment" || name == "line" || name == "pen" || name == "rapid" ||
-         name == "interpolated";
+/// Names of all columns, in a row.
+std::string all_names() {
+  std::string names;
+  for (std::size_t i = 0; i < kAll; ++i) {
+    names.append(i == 0 ? "" : ", ").append(column_at(i).name);
+  }
+  return names;
 }
 
 /// Columns that a plan has: set points, and what is known of them.
@@ -113,8 +116,8 @@ Expected<ColumnChoice> choose_columns(std::string_view text, Layout layout, bool
                                                       : "of this machine, only of --hal mujoco"));
     } else {
       return fail(ErrorCode::kUsage,
-                  fmt::format("--columns: there is no column '{}'; there are default, all, {}, {}",
-                              name, fmt::join(kColumns, ", "), fmt::join(kMoreColumns, ", ")));
+                  fmt::format("--columns: there is no column '{}'; there are default, all, {}",
+                              name, all_names()));
     }
   }
   return chosen;
@@ -123,10 +126,12 @@ Expected<ColumnChoice> choose_columns(std::string_view text, Layout layout, bool
 TraceHeader trace_header(const ColumnChoice& columns, double period) {
   TraceHeader header{.columns = {}, .period = period};
   for (const std::size_t column : columns) {
-    const std::string_view name = column_name(column);
+    const Column& known = column_at(column);
     header.columns.push_back(
-        {.name = std::string(name),
-         .kind = is_whole(name) ? TraceColumn::Kind::kWhole : TraceColumn::Kind::kReal});
+        {.name = std::string(known.name),
+         .kind = known.is_whole ? TraceColumn::Kind::kWhole : TraceColumn::Kind::kReal,
+         .unit = std::string(known.unit),
+         .long_name = std::string(known.long_name)});
   }
   return header;
 }

@@ -16,42 +16,53 @@ namespace twin::results {
 
 inline constexpr std::size_t kPlanColumns = 7;  ///< columns of a trace without a machine
 
+/// What is known of a column of traces.
+struct Column {
+  std::string_view name;       ///< with its unit
+  std::string_view unit;       ///< as UCUM writes it, as in "mm/s"; "1" for a plain number
+  std::string_view long_name;  ///< what it is, in words
+  bool is_whole = false;       ///< whole numbers, such as line numbers
+};
+
 /// Columns that a trace has unless others are chosen.
-inline constexpr std::array<std::string_view, 16> kColumns{
-    "t_s",                  // time since the first set point
-    "segment",              // planned segment, counted from 0
-    "line",                 // NC line
-    "x_cmd_mm",             // set point
-    "y_cmd_mm",             //
-    "z_cmd_mm",             //
-    "feedrate_mm_per_s",    // of the set point, along the path
-    "x_enc_mm",             // what the encoder counts mean
-    "y_enc_mm",             //
-    "x_table_mm",           // true position of the table
-    "y_table_mm",           //
-    "x_drive_V",            // drive command
-    "y_drive_V",            //
-    "contour_error_um",     // distance of the encoder's position from the programmed path
-    "x_tracking_error_um",  // set point less encoder
-    "y_tracking_error_um"};
+inline constexpr std::array<Column, 16> kColumns{{
+    {"t_s", "s", "time since the first set point"},
+    {"segment", "1", "planned segment, counted from 0", true},
+    {"line", "1", "line of the NC program", true},
+    {"x_cmd_mm", "mm", "set point of x"},
+    {"y_cmd_mm", "mm", "set point of y"},
+    {"z_cmd_mm", "mm", "set point of z"},
+    {"feedrate_mm_per_s", "mm/s", "feedrate of the set point along the path"},
+    {"x_enc_mm", "mm", "position of x by its encoder"},
+    {"y_enc_mm", "mm", "position of y by its encoder"},
+    {"x_table_mm", "mm", "true position of the table along x"},
+    {"y_table_mm", "mm", "true position of the table along y"},
+    {"x_drive_V", "V", "drive command of x"},
+    {"y_drive_V", "V", "drive command of y"},
+    {"contour_error_um", "um", "distance of the encoders' position from the programmed path"},
+    {"x_tracking_error_um", "um", "set point less encoder, x"},
+    {"y_tracking_error_um", "um", "set point less encoder, y"},
+}};
 
 /// Columns that --columns adds.
-inline constexpr std::array<std::string_view, 12> kMoreColumns{
-    "path_mm",                          // way of the set points since the first one
-    "feedrate_limit_mm_per_s",          // limit in force at the set point; 0: none
-    "pen",                              // 1 with the pen down, 0 with it up
-    "rapid",                            // 1 on a rapid (G00), else 0
-    "command_contour_error_signed_um",  // positive left of the motion of the set point
-    "contour_error_signed_um",          // the same of the encoder's position
-    "table_contour_error_signed_um",    // the same of the table's true position
-    "interpolated",                     // 1: the period never began, measured values are made up
-    "x_torque_Nm",                      // of the motor; of a simulated table
-    "y_torque_Nm",                      //
-    "x_friction_N",                     // of the slide, positive against positive motion
-    "y_friction_N"};
+inline constexpr std::array<Column, 12> kMoreColumns{{
+    {"path_mm", "mm", "way of the set points since the first one"},
+    {"feedrate_limit_mm_per_s", "mm/s", "feedrate limit in force at the set point; 0 for none"},
+    {"pen", "1", "1 with the pen down, 0 with it up", true},
+    {"rapid", "1", "1 on a rapid (G00), else 0", true},
+    {"command_contour_error_signed_um", "um",
+     "contour error of the set point, positive left of its motion"},
+    {"contour_error_signed_um", "um",
+     "contour error of the encoders' position, positive left of the set point's motion"},
+    {"table_contour_error_signed_um", "um",
+     "contour error of the table's true position, positive left of the set point's motion"},
+    {"interpolated", "1", "1 where the period never began and measured values are made up", true},
+    {"x_torque_Nm", "N.m", "torque of the motor of x"},
+    {"y_torque_Nm", "N.m", "torque of the motor of y"},
+    {"x_friction_N", "N", "friction of the slide of x, positive against positive motion"},
+    {"y_friction_N", "N", "friction of the slide of y, positive against positive motion"},
+}};
 
-inline constexpr std::string_view kTraceName = "trace.csv";
-inline constexpr std::string_view kPartialTraceName = "trace.partial.csv";
 /// In the folder of the plots: histograms of the periods of a run on the wall clock.
 inline constexpr std::string_view kTimingName = "timing.csv";
 /// In the folder of the plots: the feedrate limit over time.

@@ -49,7 +49,9 @@ class CsvReader {
     }
   }
 
-  int line() const noexcept { return line_; }  ///< line of the last row, from 1
+  int line() const noexcept { return line_; }                 ///< line of the last row, from 1
+  const std::string& name() const noexcept { return name_; }  ///< of the file
+  std::size_t chosen() const noexcept { return chosen_; }     ///< number of chosen columns
 
  private:
   struct Close {
@@ -72,14 +74,5 @@ class CsvReader {
   std::size_t chosen_ = 0;
   std::size_t last_field_ = 0;  // fields beyond this one are not looked at
 };
-
-/// Calls `take(std::span<const double>)` with the chosen columns of every row of a file.
-template <class Take>
-Expected<void> read_rows(const std::filesystem::path& file,
-                         std::span<const std::string_view> columns, Take&& take) {
-  TWIN_TRY(CsvReader reader, CsvReader::open(file));
-  TWIN_CHECK(reader.select(columns));
-  return reader.for_each_row(std::forward<Take>(take));
-}
 
 }  // namespace twin::results

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "results/trace/columns.hpp"
+#include "results/trace/trace_files.hpp"
 
 namespace twin::results {
 

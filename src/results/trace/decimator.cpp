@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::results {
 

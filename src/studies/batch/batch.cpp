@@ -1,14 +1,12 @@
 #include "studies/batch/batch.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <system_error>
-#include <thread>
 
-#include "core/json.hpp"
+#include "core/parallel_for.hpp"
 #include "results/metrics/summary.hpp"
 #include "runtime/run.hpp"
 #include "session/machine.hpp"
@@ -22,30 +20,22 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The summary without what differs from one computation of the same job to the next.
-std::string reproducible(const results::Summary& summary) {
-  Json json = Json::parse(results::to_json(summary));
-  for (const char* key : {"cycle_time_us", "real_time_factor", "command"}) {
-    json.erase(key);
-  }
-  return to_text(json);
-}
-
-/// The jobs of a batch and how far they are, shared by the workers.
-class Pool {
+/// The jobs of a batch and how far they are, shared by the threads.
+class Work {
  public:
-  Pool(std::vector<const PreparedJob*> jobs, const Store& store, const Options& options)
-      : jobs_(std::move(jobs)), store_(store), options_(options) {
+  Work(std::span<const PreparedJob* const> jobs, const Store& store, const Options& options)
+      : jobs_(jobs), store_(store), options_(options) {
     report_.jobs = jobs_.size();
   }
 
-  /// Takes jobs until there are none; several threads call it.
-  void work() {
-    for (std::size_t i = next_++; i < jobs_.size() && !is_over(); i = next_++) {
-      const Expected<Outcome> outcome = do_job(*jobs_[i]);
-      const std::lock_guard lock(mutex_);
-      note(outcome);
+  /// Does a job, unless the batch has ended. Several threads call it.
+  void run(std::size_t i) {
+    if (is_over()) {
+      return;
     }
+    const Expected<Outcome> outcome = do_job(*jobs_[i]);
+    const std::lock_guard lock(mutex_);
+    note(*jobs_[i], outcome);
   }
 
   Expected<Report> finish() {
@@ -62,7 +52,7 @@ class Pool {
  private:
   struct Outcome {
     bool was_found = false;
-    bool has_failed = false;
+    StoredResult result;
   };
 
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
@@ -70,14 +60,12 @@ class Pool {
 
   Expected<Outcome> do_job(const PreparedJob& job) const {
     if (const auto stored = store_.find(job)) {
-      return Outcome{true, !stored->failure.empty()};
+      return Outcome{true, *stored};
     }
     TWIN_TRY(const std::filesystem::path folder, store_.begin(job));
     Expected<StoredResult> result = guarded(job, folder);
     const auto kept = result.and_then([&](const StoredResult& computed) {
-      return store_.commit(job, folder, computed).map([&] {
-        return Outcome{false, !computed.failure.empty()};
-      });
+      return store_.commit(job, folder, computed).map([&] { return Outcome{false, computed}; });
     });
     if (!kept) {
       std::error_code ignored;
@@ -95,7 +83,7 @@ class Pool {
     }
   }
 
-  void note(const Expected<Outcome>& outcome) {
+  void note(const PreparedJob& job, const Expected<Outcome>& outcome) {
     if (!outcome) {
       if (outcome.error().code != ErrorCode::kInterrupted && !error_) {
         error_ = outcome.error();
@@ -104,7 +92,10 @@ class Pool {
       return;
     }
     ++(outcome->was_found ? report_.found : report_.computed);
-    report_.failed += outcome->has_failed ? 1 : 0;
+    report_.failed += outcome->result.failure.empty() ? 0 : 1;
+    if (options_.result) {
+      options_.result(job, outcome->result);
+    }
     if (options_.progress) {
       const std::size_t done = report_.found + report_.computed;
       const double pace = report_.computed == 0
@@ -114,11 +105,10 @@ class Pool {
     }
   }
 
-  std::vector<const PreparedJob*> jobs_;
+  std::span<const PreparedJob* const> jobs_;
   const Store& store_;
   const Options& options_;
   Clock::time_point start_ = Clock::now();
-  std::atomic<std::size_t> next_{0};
   std::atomic<bool> is_broken_{false};
   std::mutex mutex_;  // of what follows
   Report report_;
@@ -151,7 +141,9 @@ Expected<StoredResult> run_job(const PreparedJob& job, const std::filesystem::pa
   request.hal = hal.get();
   request.feedrate = job.job.feedrate;
   request.overrides = job.job.overrides;
-  request.directory = job.job.keeps_trace ? folder : std::filesystem::path();
+  request.directory =
+      job.job.trace == results::TraceFiles::kNone ? std::filesystem::path() : folder;
+  request.trace = job.job.trace;
   request.durability = Durability::kCached;
   request.stop = stop;
   const auto result = runtime::run_program(request);
@@ -159,29 +151,24 @@ Expected<StoredResult> run_job(const PreparedJob& job, const std::filesystem::pa
                              : result->failure ? &*result->failure
                                                : nullptr;
   if (error == nullptr) {
-    return StoredResult{reproducible(result->summary), {}};
+    return StoredResult{results::to_reproducible_json(result->summary), {}};
   }
   if (error->code == ErrorCode::kInterrupted) {
     return tl::unexpected(*error);
   }
   std::error_code ignored;
-  std::filesystem::remove(folder / "trace.partial.csv", ignored);
+  std::filesystem::remove(folder / results::kPartialTraceName, ignored);
+  std::filesystem::remove(folder / results::kPartialHdf5TraceName, ignored);
   return StoredResult{{}, to_string(*error)};
 }
 
 Expected<Report> run_batch(std::span<const PreparedJob> jobs, const Store& store,
                            const Options& options) {
-  Pool pool(chosen(jobs, options), store, options);
-  {
-    const unsigned workers =
-        options.workers > 0 ? options.workers : std::max(1U, std::thread::hardware_concurrency());
-    std::vector<std::jthread> threads;
-    for (unsigned i = 1; i < workers; ++i) {
-      threads.emplace_back([&pool] { pool.work(); });
-    }
-    pool.work();
-  }
-  return pool.finish();
+  const std::vector<const PreparedJob*> wanted = chosen(jobs, options);
+  Work work(wanted, store, options);
+  parallel_for(
+      wanted.size(), [&work](std::size_t i) { work.run(i); }, options.workers);
+  return work.finish();
 }
 
 }  // namespace twin::studies::batch

@@ -24,6 +24,8 @@ struct Options {
   std::size_t shards = 1;                   ///< divided by this with remainder
   const std::atomic<bool>* stop = nullptr;  ///< ends it; jobs under way are given up
   std::function<void(const Progress&)> progress{};  ///< one call at a time
+  /// Gets each job that is done or was in the store, and its result; one call at a time.
+  std::function<void(const PreparedJob&, const StoredResult&)> result{};
 };
 
 /// What a batch has done.

@@ -27,6 +27,14 @@ SortedJson json_of(const config::MachineFile& machine, const std::string& model)
   return json;
 }
 
+/// true for CSV, false for none: so they were written before there were others.
+SortedJson json_of(results::TraceFiles trace) {
+  if (trace == results::TraceFiles::kNone || trace == results::TraceFiles::kCsv) {
+    return trace == results::TraceFiles::kCsv;
+  }
+  return results::kTraceFilesNames[static_cast<std::size_t>(trace)];
+}
+
 SortedJson json_of(const std::vector<runtime::OverrideChange>& overrides) {
   SortedJson json = SortedJson::array();
   for (const runtime::OverrideChange& change : overrides) {
@@ -76,7 +84,7 @@ Expected<PreparedJob> JobMaker::prepare(const Job& job) {
   json["overrides"] = json_of(job.overrides);
   json["program_sha256"] = prepared.program.sha256();
   json["settings"] = json_of(prepared.machine, model);
-  json["trace"] = job.keeps_trace;
+  json["trace"] = json_of(job.trace);
   json["twin"] = version();
   prepared.canonical = json.dump();
   prepared.key = sha256(prepared.canonical);

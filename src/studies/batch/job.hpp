@@ -9,6 +9,7 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "gcode/program_text.hpp"
+#include "results/trace/trace_files.hpp"
 #include "runtime/override_schedule.hpp"
 
 /// Many runs: each is a value with a key, and its results lie in a store under that key.
@@ -32,7 +33,7 @@ struct Job {
   std::optional<double> feedrate;         ///< replaces the program's F words [mm/s]
   JobMachine hal = JobMachine::kTable;
   std::vector<runtime::OverrideChange> overrides;
-  bool keeps_trace = false;  ///< whether the store gets trace.csv
+  results::TraceFiles trace = results::TraceFiles::kNone;  ///< files of it that the store gets
 };
 
 /// A job with everything that its result depends on, and the key that follows from that.

@@ -16,6 +16,10 @@ namespace {
 
 constexpr int kMostSettings = 1000;
 
+std::optional<results::TraceFiles> trace_of(bool is_kept) {
+  return is_kept ? results::TraceFiles::kCsv : results::TraceFiles::kNone;
+}
+
 /// Reads the values of a job's JSON, and says where one is none.
 class JobReader {
  public:
@@ -64,10 +68,14 @@ class JobReader {
       return take_overrides(value, job);
     }
     if (key == "trace") {
-      if (!value.is_boolean()) {
-        return wrong(key, value, "true or false");
+      const auto trace = value.is_boolean() ? trace_of(value.get<bool>())
+                         : value.is_string()
+                             ? results::trace_files_of(value.get_ref<const std::string&>())
+                             : std::nullopt;
+      if (!trace) {
+        return wrong(key, value, "true, false, \"csv\", \"hdf5\", \"both\" or \"none\"");
       }
-      job.keeps_trace = value.get<bool>();
+      job.trace = *trace;
       return {};
     }
     const std::array<std::string, 7> keys{"program", "machine",   "set",  "feedrate_mm_per_min",
@@ -195,8 +203,10 @@ std::string to_line(const Job& job) {
   for (const runtime::OverrideChange& change : job.overrides) {
     json["overrides"].push_back({change.time, change.percent});
   }
-  if (job.keeps_trace) {
+  if (job.trace == results::TraceFiles::kCsv) {
     json["trace"] = true;
+  } else if (job.trace != results::TraceFiles::kNone) {
+    json["trace"] = results::kTraceFilesNames[static_cast<std::size_t>(job.trace)];
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

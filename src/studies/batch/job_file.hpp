@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostJobs = 1'000'000;
 ///
 ///     {"program": "dolphin.nc", "machine": "xy_table.toml",
 ///      "set": {"servo.x.kp_per_s": 200}, "feedrate_mm_per_min": 3000, "hal": "mujoco",
-///      "overrides": [[0, 100], [2, 50]], "trace": true}
+///      "overrides": [[0, 100], [2, 50]], "trace": true}   trace: true, false or as --trace takes it
 ///
 /// All keys but `program` may be missing. @returns the jobs, or the first error with file, line and
 /// column: what was found and what was expected.

@@ -5,22 +5,35 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numeric>
 
+#include "config/binding.hpp"
+#include "core/atomic_file.hpp"
 #include "core/json.hpp"
+#include "results/trace/hdf5.hpp"
 
 namespace twin::studies::batch {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Figures of the table, by their place in summary.json.
-constexpr std::array<const char*, 9> kFigures{
-    "machining_time_s",           "planned_time_s",          "path_length_mm",
-    "contour_error_um/max",       "contour_error_um/rms",    "table_contour_error_um/max",
-    "table_contour_error_um/rms", "tracking_error_um/x/max", "tracking_error_um/y/max"};
+/// A figure of the table.
+struct Figure {
+  const char* place;  ///< in summary.json
+  const char* unit;
+};
+constexpr std::array<Figure, 9> kFigures{{{"machining_time_s", "s"},
+                                          {"planned_time_s", "s"},
+                                          {"path_length_mm", "mm"},
+                                          {"contour_error_um/max", "um"},
+                                          {"contour_error_um/rms", "um"},
+                                          {"table_contour_error_um/max", "um"},
+                                          {"table_contour_error_um/rms", "um"},
+                                          {"tracking_error_um/x/max", "um"},
+                                          {"tracking_error_um/y/max", "um"}}};
 
 double figure(const Json& summary, const std::string& place) {
   const Json::json_pointer pointer("/" + place);
@@ -61,6 +74,17 @@ Merit merit_of(const StoredResult& result) {
   const double time = figure(summary, "machining_time_s");
   return {std::isnan(time) ? figure(summary, "planned_time_s") : time,
           figure(summary, "contour_error_um/max")};
+}
+
+StoredResult figures_of(const StoredResult& result) {
+  const Json summary = Json::parse(result.summary, nullptr, false);
+  Json figures = Json::object();
+  for (const auto& [place, unit] : kFigures) {
+    if (const double value = figure(summary, place); !std::isnan(value)) {
+      figures[Json::json_pointer("/" + std::string(place))] = value;
+    }
+  }
+  return {figures.dump(), result.failure};
 }
 
 std::vector<Candidate> candidates_of(const std::vector<std::string>& keys,
@@ -123,7 +147,7 @@ std::string to_csv(const std::vector<std::string>& keys, const std::vector<Row>&
   for (const std::string& key : keys) {
     text += field(key) + ",";
   }
-  for (const char* const place : kFigures) {
+  for (const auto& [place, unit] : kFigures) {
     text += column_of(place) + ",";
   }
   text += "failure,key\n";
@@ -132,13 +156,86 @@ std::string to_csv(const std::vector<std::string>& keys, const std::vector<Row>&
       text += field(value) + ",";
     }
     const Json summary = Json::parse(row.result.summary, nullptr, false);
-    for (const char* const place : kFigures) {
+    for (const auto& [place, unit] : kFigures) {
       const double value = figure(summary, place);
       text += (std::isnan(value) ? std::string() : fmt::format("{:.9g}", value)) + ",";
     }
     text += field(row.result.failure) + "," + row.job.key + "\n";
   }
   return text;
+}
+
+namespace {
+
+/// Values as numbers, or none of them if one is no number.
+std::vector<double> numbers_of(const std::vector<std::string>& values) {
+  std::vector<double> numbers;
+  for (const std::string& value : values) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(value.c_str(), &end));
+    if (value.empty() || *end != '\0') {
+      return {};
+    }
+  }
+  return numbers;
+}
+
+/// The unit of a setting as the machine file's bindings have it: "mm_per_s2" is mm/s^2.
+std::string unit_of(const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  config::MachineFile machine;
+  const std::vector<config::Binding> bindings = config::bindings(machine);
+  const config::Binding* const binding =
+      dot == std::string::npos
+          ? nullptr
+          : config::find_binding(bindings, key.substr(0, dot), key.substr(dot + 1));
+  return binding == nullptr || binding->unit.empty() ? "1" : config::pretty_unit(binding->unit);
+}
+
+results::Hdf5TableColumn column_of_values(const std::string& key, std::vector<std::string> values) {
+  results::Hdf5TableColumn column{.column = {.name = key, .unit = unit_of(key)}};
+  column.numbers = numbers_of(values);
+  if (column.numbers.empty()) {
+    column.texts = std::move(values);
+  }
+  return column;
+}
+
+}  // namespace
+
+Expected<void> write_hdf5(const std::vector<std::string>& keys, const std::vector<Row>& rows,
+                          const std::filesystem::path& file) {
+  TWIN_TRY(const results::Hdf5Module* const module, results::hdf5_module());
+  std::vector<results::Hdf5TableColumn> columns;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    std::vector<std::string> values;
+    for (const Row& row : rows) {
+      values.push_back(row.point.values[k]);
+    }
+    columns.push_back(column_of_values(keys[k], std::move(values)));
+  }
+  std::vector<Json> summaries;
+  for (const Row& row : rows) {
+    summaries.push_back(Json::parse(row.result.summary, nullptr, false));
+  }
+  for (const auto& [place, unit] : kFigures) {
+    results::Hdf5TableColumn column{.column = {.name = column_of(place), .unit = unit}};
+    for (const Json& summary : summaries) {
+      column.numbers.push_back(figure(summary, place));
+    }
+    columns.push_back(std::move(column));
+  }
+  results::Hdf5TableColumn failures{.column = {.name = "failure"}};
+  results::Hdf5TableColumn job_keys{.column = {.name = "key"}};
+  for (const Row& row : rows) {
+    failures.texts.push_back(row.result.failure);
+    job_keys.texts.push_back(row.job.key);
+  }
+  columns.push_back(std::move(failures));
+  columns.push_back(std::move(job_keys));
+  TWIN_TRY(AtomicFile whole, AtomicFile::create(file, temporary_of(file)));
+  TWIN_CHECK(module->write_table(whole.temporary(), columns));
+  return whole.commit();
 }
 
 }  // namespace twin::studies::batch

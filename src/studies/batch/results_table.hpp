@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Merit {
 };
 Merit merit_of(const StoredResult& result);
 
+/// A result with those figures of its summary alone that the table and the merit need.
+StoredResult figures_of(const StoredResult& result);
+
 /// One combination of settings, over all programs of a sweep.
 struct Candidate {
   std::vector<std::string> values;  ///< of the keys but "program"
@@ -41,5 +45,10 @@ std::vector<std::size_t> pareto_front(const std::vector<Candidate>& candidates);
 
 /// The results as CSV: the keys of the sweep, main figures, failure, key of the job; a line a job.
 std::string to_csv(const std::vector<std::string>& keys, const std::vector<Row>& rows);
+
+/// The same table as an HDF5 file: a dataset a column, with its unit; numbers where all values of a
+/// setting are some, texts otherwise. Written whole or not at all.
+Expected<void> write_hdf5(const std::vector<std::string>& keys, const std::vector<Row>& rows,
+                          const std::filesystem::path& file);
 
 }  // namespace twin::studies::batch

@@ -142,9 +142,9 @@ Expected<fs::path> Store::begin(const PreparedJob& job) const {
 Expected<void> Store::commit(const PreparedJob& job, const fs::path& work,
                              const StoredResult& result) const {
   const bool has_failed = !result.failure.empty();
-  TWIN_CHECK(
-      write_whole_file(work / (has_failed ? "failure.json" : "summary.json"),
-                       has_failed ? to_text(Json{{"error", result.failure}}) : result.summary));
+  TWIN_CHECK(write_whole_file(
+      work / (has_failed ? "failure.json" : "summary.json"),
+      has_failed ? to_text(Json{{"error", result.failure}}) : result.summary, Durability::kCached));
   Json described;
   described["job"] = Json::parse(job.canonical);
   std::error_code code;
@@ -159,7 +159,7 @@ Expected<void> Store::commit(const PreparedJob& job, const fs::path& work,
     TWIN_TRY(const std::string content, read_whole_file(file));
     described["files"][file.filename().string()] = sha256(content);
   }
-  TWIN_CHECK(write_whole_file(work / "job.json", to_text(described)));
+  TWIN_CHECK(write_whole_file(work / "job.json", to_text(described), Durability::kCached));
   const fs::path target = folder_of(job);
   TWIN_CHECK(make_folder(target.parent_path()));
   fs::rename(work, target, code);
@@ -170,7 +170,6 @@ Expected<void> Store::commit(const PreparedJob& job, const fs::path& work,
   if (code) {
     return file_error(target, "make this folder", code.value());
   }
-  sync_folder(target.parent_path());
   return {};
 }
 

@@ -22,11 +22,12 @@ struct StoredResult {
 ///     STORE/twin-store.json          that it is a store, and of which layout
 ///     STORE/ab/abcd.../job.json      the canonical job, and the checksums of the files beside it
 ///     STORE/ab/abcd.../summary.json  or failure.json: {"error": "..."}
-///     STORE/ab/abcd.../trace.csv     if the job keeps its trace
+///     STORE/ab/abcd.../trace.csv, trace.h5     if the job keeps its trace
 ///     STORE/work/...                 what is being computed; what a killed process left there is
 ///                                    removed by the next one of its host
 ///
-/// A result appears whole: its folder is made in work/ and renamed. Equal jobs have equal bytes, so
+/// A result appears whole: its folder is made in work/ and renamed. Nothing waits for the disk: what
+/// a loss of power leaves broken does not have its checksums, and is computed again. Equal jobs have equal bytes, so
 /// whoever is second leaves what is there. Several processes, also on several hosts, may use a
 /// store at once.
 class Store {

@@ -10,6 +10,7 @@
 
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
+#include "core/json.hpp"
 #include "core/units.hpp"
 #include "studies/batch/job_file.hpp"
 
@@ -17,6 +18,26 @@ namespace twin::studies::batch {
 namespace {
 
 constexpr std::int64_t kMostPoints = 1'000'000'000'000;
+
+/// Every parameter below a value of an identify.json that has a deviation, and was found.
+void collect_identified(const Json& json, std::vector<DrawnKey>& drawn) {
+  if (json.is_object() && json.contains("verdict") && json.contains("key") &&
+      json.contains("sigma") && json["sigma"].is_number() && json["value"].is_number()) {
+    const std::string verdict = json["verdict"].get<std::string>();
+    const auto sigma = json["sigma"].get<double>();
+    if ((verdict == "identified" || verdict == "uncertain") && sigma > 0.0) {
+      drawn.push_back({json["key"].get<std::string>(), json["value"].get<double>(), sigma});
+    }
+    return;
+  }
+  if (json.is_structured()) {
+    for (const auto& [key, value] : json.items()) {
+      if (key != "derived") {
+        collect_identified(value, drawn);
+      }
+    }
+  }
+}
 
 /// Takes a sweep out of a table of TOML, and says where it is wrong.
 class SweepReader {
@@ -89,11 +110,16 @@ class SweepReader {
 
   Expected<void> take_common(const std::string& key, const toml::node& node) {
     if (key == "trace") {
-      const auto trace = node.value_exact<bool>();
+      const auto flag = node.value_exact<bool>();
+      const auto name = node.value_exact<std::string>();
+      const auto trace =
+          flag   ? std::optional(*flag ? results::TraceFiles::kCsv : results::TraceFiles::kNone)
+          : name ? results::trace_files_of(*name)
+                 : std::nullopt;
       if (!trace) {
-        return wrong(node, "trace is true or false");
+        return wrong(node, "trace is true, false, \"csv\", \"hdf5\", \"both\" or \"none\"");
       }
-      sweep_.base.keeps_trace = *trace;
+      sweep_.base.trace = *trace;
       return {};
     }
     const auto text = node.value_exact<std::string>();
@@ -154,6 +180,10 @@ class SweepReader {
         seed = static_cast<std::uint64_t>(*value);
         continue;
       }
+      if (key == "identified" && std::string_view(first) == "mean") {
+        TWIN_CHECK(take_identified(node, drawn));
+        continue;
+      }
       const toml::table* const range = node.as_table();
       const auto from = range == nullptr ? std::nullopt : (*range)[first].value<double>();
       const auto to = range == nullptr ? std::nullopt : (*range)[second].value<double>();
@@ -167,6 +197,25 @@ class SweepReader {
       return wrong(section, "no setting is drawn here");
     }
     return {};
+  }
+
+  /// The parameters that `twin identify` has found, with their deviations, from its identify.json. Its
+  /// name counts from the folder of the sweep's file.
+  Expected<void> take_identified(const toml::node& node, std::vector<DrawnKey>& drawn) const {
+    const auto name = node.value_exact<std::string>();
+    if (!name || name->empty()) {
+      return wrong(node, "identified is the name of an identify.json in quotes");
+    }
+    const std::filesystem::path file = file_.parent_path() / *name;
+    TWIN_TRY(const std::string text, read_whole_file(file));
+    const std::size_t before = drawn.size();
+    collect_identified(Json::parse(text, nullptr, false), drawn);
+    return drawn.size() > before
+               ? Expected<void>{}
+               : wrong(node,
+                       fmt::format("{} has no identified parameter with a deviation; expected "
+                                   "the identify.json of twin identify",
+                                   file.string()));
   }
 
   /// { from, to, count }: evenly spaced numbers, both ends among them.

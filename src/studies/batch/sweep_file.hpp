@@ -32,6 +32,7 @@ namespace twin::studies::batch {
 ///     count = 200
 ///     seed = 1
 ///     "table.x.coulomb_friction_N" = { mean = 1.8, sigma = 0.2 }
+///     identified = "identify.json"        # what twin identify has found, with its deviations
 ///
 /// @returns the sweep, or an error with file, line and column
 Expected<Sweep> read_sweep(const std::filesystem::path& file);

@@ -60,6 +60,7 @@ Expected<void> write_sweep(const std::vector<std::string>& keys, const std::vect
   const std::vector<std::size_t> front = pareto_front(candidates);
   TWIN_CHECK(write_whole_file(folder / "jobs.jsonl", jobs));
   TWIN_CHECK(write_whole_file(folder / "results.csv", to_csv(keys, rows)));
+  TWIN_CHECK(write_hdf5(keys, rows, folder / "results.h5"));
   TWIN_CHECK(write_whole_file(folder / "index.html",
                               page_of(keys, rows.size(), candidates, front, title)));
   if (front.empty()) {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/units.hpp"
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::studies::circular {
 namespace {

@@ -91,6 +91,7 @@ Expected<SenseRun> run_sense(const CircleTest& test, Sense sense,
   request.hal = hal.get();
   request.folder = test.folder / name;
   request.command = test.command;
+  request.trace = test.trace;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   session::Attendance attendance;
   attendance.stop = &stop;
@@ -101,7 +102,7 @@ Expected<SenseRun> run_sense(const CircleTest& test, Sense sense,
   if (result.failure) {
     return tl::unexpected(*result.failure);
   }
-  TWIN_TRY(MeasuredTurn turn, read_measured_turn(session.folder() / "trace.csv"));
+  TWIN_TRY(MeasuredTurn turn, read_measured_turn(session.trace_file()));
   return SenseRun{std::move(turn), result.summary.interpolator};
 }
 

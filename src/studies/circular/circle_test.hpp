@@ -8,6 +8,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "results/trace/trace_files.hpp"
 #include "session/machine.hpp"
 #include "studies/circular/circle_program.hpp"
 #include "studies/circular/circular_report.hpp"
@@ -22,7 +23,8 @@ struct CircleTest {
   double radius = 20.0;               ///< of the circle about X0 Y0 [mm]
   double feedrate = 50.0;             ///< programmed [mm/s]
   std::string command{};              ///< command line of the caller, for the summaries
-  std::filesystem::path folder;       ///< of the results; made when missing
+  results::TraceFiles trace = results::TraceFiles::kCsv;  ///< as which files traces are written
+  std::filesystem::path folder;                           ///< of the results; made when missing
 };
 
 /// What a circular test has found.

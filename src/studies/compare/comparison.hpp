@@ -30,7 +30,7 @@ struct Contestant {
   std::string name;              ///< "nurbs", "bezier", "linear", "certified"
   std::string planner;           ///< "paper", "certified"
   results::Summary summary;      ///< with planning time and bound
-  std::filesystem::path folder;  ///< with its trace.csv
+  std::filesystem::path folder;  ///< with its trace
   BoundedPlan plan;              ///< with profiles
 };
 
@@ -43,7 +43,7 @@ struct Fluctuation {
   std::string feedrate_rule;     ///< "constant", or that of the machine file
   std::string parameter_update;  ///< "taylor1", "taylor2", "rk4", "corrected"
   results::ShareStats shares;
-  std::filesystem::path folder;  ///< with the trace.csv of the plan
+  std::filesystem::path folder;  ///< with the trace of the plan
 };
 
 struct Comparison {

@@ -7,7 +7,7 @@
 
 #include "core/units.hpp"
 #include "pictures/figure/value_range.hpp"
-#include "results/trace/columns.hpp"
+#include "results/trace/trace_files.hpp"
 #include "studies/compare/error_curves.hpp"
 
 namespace twin::studies::compare {
@@ -39,7 +39,7 @@ Expected<std::vector<Panel>> curves_over_time(const Album& album, const Comparis
   double largest = 0.0;
   int style = 1;
   for (const Contestant& contestant : comparison.contestants) {
-    const auto csv = contestant.folder / results::kTraceName;
+    const auto csv = results::find_trace(contestant.folder);
     const std::string name = "feedrate_" + contestant.name;
     TWIN_TRY(
         const results::Table copied,
@@ -145,7 +145,7 @@ Expected<std::vector<Panel>> fluctuation_panels(const Album& album, const Compar
                         "", 300});
     }
     TWIN_TRY(const results::Table shares,
-             read_fluctuation(f.folder / results::kTraceName, comparison.period));
+             read_fluctuation(results::find_trace(f.folder), comparison.period));
     const std::string data = fmt::format("fluctuation_{}", i);
     TWIN_CHECK(album.write_data(
         data, std::array<std::string_view, 2>{"t_s", "largest_fluctuation_percent"},

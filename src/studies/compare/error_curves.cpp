@@ -4,7 +4,7 @@
 #include <array>
 
 #include "results/metrics/feedrate_fluctuation.hpp"
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 
 namespace twin::studies::compare {
 namespace {

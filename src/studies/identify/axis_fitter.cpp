@@ -8,8 +8,8 @@
 #include "studies/identify/direct.hpp"
 #include "studies/identify/least_squares.hpp"
 #include "studies/identify/measured_parameters.hpp"
-#include "studies/identify/minimise.hpp"
 #include "studies/identify/torque_servo.hpp"
+#include "studies/search/minimise.hpp"
 
 namespace twin::studies::identify {
 namespace {
@@ -141,7 +141,7 @@ void AxisFitter::search(int number, const config::MachineFile& begin) {
   const double best_rms = rms_of(best);
   const ParameterSet set = set_of(free_indices());
   problem_.set_base(current_);
-  MinimiseOptions options;
+  search::MinimiseOptions options;
   options.start = set.units(current_);
   options.spread = kSpread;
   options.population =
@@ -153,7 +153,7 @@ void AxisFitter::search(int number, const config::MachineFile& begin) {
   options.progress = [&](double share, double) {
     report(kSearchStart + (kSearchEnd - kSearchStart) * (number + share) / kSearches);
   };
-  const Minimum found = minimise(
+  const search::Minimum found = search::minimise(
       [&](std::span<const double> units) { return problem_.residuals(set, units).squaredNorm(); },
       options);
   current_ = set.with_units(current_, found.x);

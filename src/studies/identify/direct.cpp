@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "studies/identify/parallel_for.hpp"
+#include "core/parallel_for.hpp"
 
 namespace twin::studies::identify {
 namespace {

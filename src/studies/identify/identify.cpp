@@ -9,9 +9,9 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/parallel_for.hpp"
 #include "core/stop_wish.hpp"
 #include "studies/identify/axis_model.hpp"
-#include "studies/identify/parallel_for.hpp"
 #include "studies/identify/signal_checks.hpp"
 
 namespace twin::studies::identify {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/linear_algebra.hpp"
-#include "studies/identify/parallel_for.hpp"
+#include "core/parallel_for.hpp"
 
 namespace twin::studies::identify {
 namespace {

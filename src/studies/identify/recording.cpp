@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 #include "studies/identify/recording_checks.hpp"
 
 namespace twin::studies::identify {
@@ -22,7 +22,7 @@ constexpr double kLongestPeriod = 4e-3;       // [s]
 constexpr std::size_t kFewestRows = 200;
 
 /// The signals that the file has, or the error that says what is missing.
-Expected<std::vector<std::size_t>> present_signals(const results::CsvReader& reader,
+Expected<std::vector<std::size_t>> present_signals(const results::TraceReader& reader,
                                                    const ColumnMap& columns,
                                                    const std::filesystem::path& file) {
   std::vector<std::size_t> present{kTime};
@@ -161,7 +161,7 @@ struct Rows {
 };
 
 Expected<Rows> read_rows(const std::filesystem::path& file, const ColumnMap& columns) {
-  TWIN_TRY(results::CsvReader reader, results::CsvReader::open(file));
+  TWIN_TRY(results::TraceReader reader, results::TraceReader::open(file));
   TWIN_TRY(const std::vector<std::size_t> signals, present_signals(reader, columns, file));
   std::vector<std::string_view> names;
   for (const std::size_t signal : signals) {

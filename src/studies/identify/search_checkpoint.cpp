@@ -37,11 +37,11 @@ Checkpoint parsed(const Json& json) {
   Checkpoint checkpoint;
   checkpoint.fit = json.at("fit").get<std::string>();
   checkpoint.stage = json.at("stage").get<int>();
-  Minimum& best = checkpoint.state.best;
+  search::Minimum& best = checkpoint.state.best;
   best.x = json.at("best").get<std::vector<double>>();
   best.cost = json.at("cost").get<double>();
   best.evaluations = json.at("evaluations").get<std::size_t>();
-  CmaState& cma = checkpoint.state.cma;
+  search::CmaState& cma = checkpoint.state.cma;
   const auto n = static_cast<Eigen::Index>(best.x.size());
   cma.mean = matrix_of(json, "mean", n, 1);
   cma.step = json.at("step").get<double>();

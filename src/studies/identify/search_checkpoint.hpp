@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "studies/identify/minimise.hpp"
+#include "studies/search/minimise.hpp"
 
 namespace twin::studies::identify {
 
@@ -13,7 +13,7 @@ namespace twin::studies::identify {
 struct Checkpoint {
   std::string fit;  ///< what is fitted, in a text that any other fit has not
   int stage = 0;    ///< of the searches that follow one another
-  SearchState state;
+  search::SearchState state;
 };
 
 /// Writes a checkpoint whole or not at all.

@@ -1,12 +1,11 @@
 #include "studies/jobs/run_jobs.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <mutex>
 #include <system_error>
-#include <thread>
 #include <utility>
 
+#include "core/parallel_for.hpp"
 #include "runtime/run.hpp"
 
 namespace twin::studies::jobs {
@@ -27,6 +26,7 @@ Expected<results::Summary> run_job(const Job& job, const Options& options) {
   request.directory = job.directory;
   request.durability = Durability::kCached;  // studies read the trace at once and write their own
   request.stop = options.stop;
+  request.trace = options.trace;
   auto result = runtime::run_program(request);
   if (!job.keeps_results) {
     std::error_code ignored;
@@ -51,26 +51,27 @@ Expected<results::Summary> run_guarded(const Job& job, const Options& options) {
 }
 
 /// The jobs and how far they are, shared by the workers.
-class Pool {
+class Progress {
  public:
-  Pool(std::span<const Job> jobs, const Options& options)
+  Progress(std::span<const Job> jobs, const Options& options)
       : jobs_(jobs), options_(options), summaries_(jobs.size()) {}
 
-  /// Takes jobs until there are none; several threads call it.
-  void work() {
-    for (std::size_t i = next_++; i < jobs_.size() && is_wanted(i); i = next_++) {
-      auto summary = run_guarded(jobs_[i], options_);
-      const std::lock_guard lock(mutex_);
-      if (summary) {
-        summaries_[i] = std::move(*summary);
-      } else if (i < first_failed_) {
-        error_ = std::move(summary.error());
-        first_failed_ = i;
-      }
-      ++done_;
-      if (options_.progress) {
-        options_.progress(static_cast<double>(done_) / static_cast<double>(jobs_.size()));
-      }
+  /// Runs a job, unless it is not wanted any more. Several threads call it.
+  void run(std::size_t i) {
+    if (!is_wanted(i)) {
+      return;
+    }
+    auto summary = run_guarded(jobs_[i], options_);
+    const std::lock_guard lock(mutex_);
+    if (summary) {
+      summaries_[i] = std::move(*summary);
+    } else if (i < first_failed_) {
+      error_ = std::move(summary.error());
+      first_failed_ = i;
+    }
+    ++done_;
+    if (options_.progress) {
+      options_.progress(static_cast<double>(done_) / static_cast<double>(jobs_.size()));
     }
   }
 
@@ -93,7 +94,6 @@ class Pool {
 
   std::span<const Job> jobs_;
   const Options& options_;
-  std::atomic<std::size_t> next_{0};
   std::atomic<std::size_t> first_failed_{std::numeric_limits<std::size_t>::max()};
   std::mutex mutex_;  // of what follows
   std::vector<results::Summary> summaries_;
@@ -105,16 +105,9 @@ class Pool {
 
 Expected<std::vector<results::Summary>> run_jobs(std::span<const Job> jobs,
                                                  const Options& options) {
-  Pool pool(jobs, options);
-  {
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 1; i < std::min(cores, jobs.size()); ++i) {
-      workers.emplace_back([&pool] { pool.work(); });
-    }
-    pool.work();
-  }
-  return pool.finish();
+  Progress progress(jobs, options);
+  parallel_for(jobs.size(), [&progress](std::size_t i) { progress.run(i); });
+  return progress.finish();
 }
 
 }  // namespace twin::studies::jobs

@@ -14,6 +14,7 @@
 #include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
 #include "results/metrics/summary.hpp"
+#include "results/trace/trace_files.hpp"
 
 /// Several runs side by side over the cores.
 namespace twin::studies::jobs {
@@ -36,7 +37,8 @@ using MakeMachine = std::function<std::unique_ptr<hal::Machine>(const config::Ma
 struct Options {
   MakeMachine make_machine;
   const std::atomic<bool>* stop = nullptr;  ///< set to end early
-  std::function<void(double)> progress;     ///< gets the done share, 0 to 1; one call at a time
+  std::function<void(double)> progress{};   ///< gets the done share, 0 to 1; one call at a time
+  results::TraceFiles trace = results::TraceFiles::kCsv;  ///< as which files traces are written
 };
 
 /// Runs the jobs, as many at a time as there are cores. Each runs in lockstep, so that its results

@@ -8,7 +8,7 @@
 
 #include "pictures/figure/figure_script.hpp"
 #include "pictures/figure/value_range.hpp"
-#include "results/trace/columns.hpp"
+#include "results/trace/trace_files.hpp"
 
 namespace twin::studies::reproduce {
 namespace {
@@ -41,7 +41,7 @@ Expected<void> add_contour(Album& album, int number, const Answer& answer) {
   const std::string& program = answer.published.program;
   const std::string name = fmt::format("fig{}_{}", number, program);
   TWIN_TRY(const results::Table table,
-           album.copy_data(answer.folder / results::kTraceName, name,
+           album.copy_data(results::find_trace(answer.folder), name,
                            std::array<std::string_view, 4>{"t_s", "x_cmd_mm", "y_cmd_mm",
                                                            "feedrate_mm_per_s"}));
   album.add(name, title_of(number, program, "contour, feedrate"),
@@ -60,7 +60,7 @@ Expected<void> add_feedrates(Album& album, int number, const std::string& progra
       continue;
     }
     const std::string data = fmt::format("{}_{:.0f}", name, feedrate);
-    TWIN_CHECK(album.copy_data(answer->folder / results::kTraceName, data,
+    TWIN_CHECK(album.copy_data(results::find_trace(answer->folder), data,
                                std::array<std::string_view, 2>{"t_s", "feedrate_mm_per_s"}));
     panels.push_back(
         over_time(fmt::format("({}) {:.0f},000 mm/min", "abc"[panels.size()], feedrate / 1000.0),
@@ -77,7 +77,7 @@ Expected<void> add_errors(Album& album, int number, const Answer& answer) {
   const std::string name = fmt::format("fig{}_{}", number, program);
   TWIN_TRY(const results::Table table,
            album.copy_data(
-               answer.folder / results::kTraceName, name,
+               results::find_trace(answer.folder), name,
                std::array<std::string_view, 4>{"t_s", "contour_error_um", "x_tracking_error_um",
                                                "y_tracking_error_um"}));
   std::vector<Panel> panels{over_time("(a) contour errors, NURBS at 3,000 mm/min",
@@ -101,7 +101,7 @@ Expected<void> add_bezier(Album& album, int number, const Answer& answer) {
   const std::string name = fmt::format("fig{}_{}", number, program);
   TWIN_TRY(const results::Table table,
            album.copy_data(
-               answer.folder / results::kTraceName, name,
+               results::find_trace(answer.folder), name,
                std::array<std::string_view, 3>{"t_s", "feedrate_mm_per_s", "contour_error_um"}));
   std::vector<Panel> panels{
       over_time("(a) feedrate commands, 3,000 mm/min", kFeedrate, name, "feedrate_mm_per_s", 1,

@@ -34,7 +34,7 @@ struct Answer {
   std::vector<Spread> repeats;   ///< empty where nothing was repeated
   results::Summary summary;      ///< of the single run
   config::MachineFile machine;   ///< of the single run
-  std::filesystem::path folder;  ///< with its trace.csv
+  std::filesystem::path folder;  ///< with its trace
 };
 
 /// All rows, run in one way.

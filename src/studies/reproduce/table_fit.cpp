@@ -16,16 +16,16 @@
 #include "config/find_file.hpp"
 #include "config/machine_file.hpp"
 #include "core/must_finish.hpp"
+#include "core/parallel_for.hpp"
 #include "core/sha256.hpp"
 #include "core/stop_wish.hpp"
 #include "core/units.hpp"
-#include "studies/identify/minimise.hpp"
-#include "studies/identify/parallel_for.hpp"
 #include "studies/identify/parameter.hpp"
 #include "studies/identify/search_checkpoint.hpp"
 #include "studies/identify/table_run.hpp"
 #include "studies/reproduce/published_columns.hpp"
 #include "studies/reproduce/reproduction.hpp"
+#include "studies/search/minimise.hpp"
 
 namespace twin::studies::reproduce {
 namespace {
@@ -87,7 +87,7 @@ class Rows {
   /// Plans every row with the planning keys of a machine file.
   Expected<std::vector<TableRun>> plan(const MachineFile& machine) const {
     std::vector<Expected<TableRun>> planned(rows_.size());
-    studies::identify::parallel_for(rows_.size(), [&](std::size_t i) {
+    parallel_for(rows_.size(), [&](std::size_t i) {
       MachineFile file = machine;
       std::vector<std::string> settings = rows_[i].row.settings;
       settings.push_back("path.curves=" + rows_[i].row.interpolator);
@@ -153,7 +153,7 @@ double cost_of(const Rows& rows, const std::vector<TableRun>& runs, const Machin
                const Stage& stage, const std::atomic<bool>* stop, unsigned threads) {
   const std::size_t n = stage.repeats;
   std::vector<std::array<double, kErrors>> errors(runs.size() * n);
-  studies::identify::parallel_for(
+  parallel_for(
       errors.size(),
       [&](std::size_t i) {
         if (stop != nullptr && stop->load()) {
@@ -217,10 +217,10 @@ std::string name_of_fit(const MachineFile& start, const TableFitOptions& options
 }
 
 /// How one stage searches; its checkpoints go to the file of the options, where there is one.
-studies::identify::MinimiseOptions options_of_stage(const StagedSearch& search, int number,
-                                                    std::optional<Error>& failure) {
+studies::search::MinimiseOptions options_of_stage(const StagedSearch& search, int number,
+                                                  std::optional<Error>& failure) {
   const Stage& stage = number == 0 ? kWide : kNear;
-  studies::identify::MinimiseOptions options;
+  studies::search::MinimiseOptions options;
   options.spread = stage.spread;
   options.population = kPopulation;
   options.evaluations =
@@ -232,7 +232,7 @@ studies::identify::MinimiseOptions options_of_stage(const StagedSearch& search, 
     options.resumed = search.checkpoint->state;
   }
   if (!search.options.checkpoint.empty()) {
-    options.save = [&search, &failure, number](const studies::identify::SearchState& state) {
+    options.save = [&search, &failure, number](const studies::search::SearchState& state) {
       const auto written = studies::identify::write_checkpoint(search.options.checkpoint,
                                                                {search.name, number, state});
       if (!written && !failure) {
@@ -250,7 +250,7 @@ Expected<void> search_in_stages(const Cost& cost, const StagedSearch& search,
   for (int number = 0; number < 2; ++number) {
     const Stage& stage = number == 0 ? kWide : kNear;
     std::optional<Error> failure;
-    studies::identify::MinimiseOptions options = options_of_stage(search, number, failure);
+    studies::search::MinimiseOptions options = options_of_stage(search, number, failure);
     options.start = x;
     if (search.options.progress) {
       options.progress = [&, begin = done](double share, double least) {
@@ -262,7 +262,7 @@ Expected<void> search_in_stages(const Cost& cost, const StagedSearch& search,
       continue;
     }
     const double before = number == 0 ? cost(x, kWide, kAllCores) : fit.cost_before;
-    const auto best = studies::identify::minimise(
+    const auto best = studies::search::minimise(
         [&](std::span<const double> at) { return cost(at, stage, 1); }, options);
     if (failure) {
       return tl::unexpected(*failure);

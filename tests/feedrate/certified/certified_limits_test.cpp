@@ -54,6 +54,43 @@ TEST(CertifiedLimits, NormalAccelerationIsKeptBetweenTheSamples) {
   });
 }
 
+// The curvature of a quintic with knots close together has a narrow peak between its samples.
+TEST(CertifiedLimits, NormalAccelerationIsKeptAtNarrowPeaksOfANurbs) {
+  gcode::Block block;
+  block.motion = gcode::Motion::kNurbs;
+  block.feedrate = 20.0;
+  block.nurbs = *gcode::make_programmed_curve(
+      *geometry::Curve::create(5, {0, 0, 0, 0, 0, 0, 0.763858, 0.933567, 1, 1, 1, 1, 1, 1},
+                               {{0, 0, 0},
+                                {0.893677, 0, 0},
+                                {1.486209, -0.669003, 0},
+                                {2.17473, -1.238737, 0},
+                                {2.147997, -2.132014, 0},
+                                {1.72893, -2.921343, 0},
+                                {0.963363, -3.382393, 0},
+                                {0.25972, -3.933341, 0}},
+                               {1, 0.02, 1, 1, 0.02, 1, 0.02, 1}));
+  block.end = {0.25972, -3.933341, 0};
+  Limits limits;
+  limits.acceleration = 100.0;
+  CertifiedLimits certified(limits, {}, {}, 1e-4);
+  double nearest = 0.0;
+  for (const path::Segment& segment : build({block})) {
+    std::vector<LimitZone> zones;
+    certified.append(segment, 0.0, 20.0, zones);
+    const auto& curve = std::get<path::FittedCurve>(segment.geometry);
+    for (const LimitZone& zone : zones) {
+      for (int i = 0; i <= 50; ++i) {
+        const double s = zone.begin + (zone.end - zone.begin) * i / 50;
+        nearest =
+            std::max(nearest, place(curve, s).curvature.norm() * zone.limit * zone.limit / 100.0);
+      }
+    }
+  }
+  EXPECT_LE(nearest, 1.0001);
+  EXPECT_GE(nearest, 0.9);
+}
+
 TEST(CertifiedLimits, EveryAxisIsKeptBetweenTheSamplesByDifferencesOfThePath) {
   Limits limits;
   limits.axis_feedrate = {70.0, 90.0, 0.0};

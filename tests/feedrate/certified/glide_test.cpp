@@ -54,5 +54,25 @@ TEST(Glide, RandomZonesAreKept) {
   }
 }
 
+// A place is known to 1e-9 mm. Beside a corner of a micrometre the limits change in less than that,
+// and with a large jerk a ramp passes several of them in one period of a microsecond.
+TEST(Glide, StepsShorterThanTheRoundingOfPlacesDoNotKeepItFromPlanning) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 300; ++i) {
+    const RampLimits limits{100.0, log_uniform(random, 1e7, 1e9)};
+    std::vector<LimitZone> zones{{0.0, 1.0, 200.0}};
+    const int steps = 40;
+    for (int k = -steps; k <= steps; ++k) {
+      const double length = log_uniform(random, 2e-10, 1.5e-9);
+      const double limit = 1e-3 * std::pow(1.01, std::abs(k));
+      zones.push_back({zones.back().end, zones.back().end + length, limit});
+    }
+    zones.push_back({zones.back().end, zones.back().end + 1.0, 200.0});
+    const MotionProfile profile = glide(zones, limits);
+    ASSERT_FALSE(profile.phases().empty()) << "case " << i;
+    ASSERT_LT(profile.duration(), 0.6) << "case " << i;  // four ramps of 1 mm take 0.4 s
+  }
+}
+
 }  // namespace glide_test
 }  // namespace twin::feedrate

@@ -4,13 +4,26 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
+#include "feedrate/limits/ramp_levels.hpp"
 #include "tests/support/s_curve.hpp"
 
 namespace twin::feedrate {
 namespace axis_limits_test {
 
 using test::log_uniform;
+
+/// Acceleration of the level of a feedrate.
+double allowed(const LimitZone& zone, Sense sense, const RampLimits& ramp, double v) {
+  std::vector<RampLevel> levels;
+  append_ramp_levels(zone, sense, ramp, levels);
+  std::size_t level = 0;
+  while (levels[level].top < v) {
+    ++level;
+  }
+  return levels[level].acceleration;
+}
 
 TEST(AxisLimits, NoneLeaveAZoneAsItIs) {
   EXPECT_FALSE(has_axis_limits({}));
@@ -65,9 +78,8 @@ TEST(AxisLimits, AnyMotionWithinAZoneKeepsEveryAxis) {
     for (int k = 0; k < 20; ++k) {
       const double v = zone.limit * std::abs(part());
       const double sense = part();
-      const double a =
-          std::min(sense > 0.0 ? zone.acceleration : zone.deceleration, limits.acceleration) *
-          sense;
+      const double a = sense * allowed(zone, sense > 0.0 ? Sense::kForward : Sense::kBackward,
+                                       {limits.acceleration, limits.jerk}, v);
       const double j = std::min(zone.jerk, limits.jerk) * part();
       for (int axis = 0; axis < 3; ++axis) {
         const double t = bounds.tangent[axis] * part();
@@ -83,6 +95,28 @@ TEST(AxisLimits, AnyMotionWithinAZoneKeepsEveryAxis) {
         }
       }
     }
+  }
+}
+
+// In a bend of constant curvature the jerk of an axis is 3 k v a: at half of the feedrate twice the
+// acceleration is left.
+TEST(AxisLimits, AtALowerFeedrateMoreAccelerationIsLeft) {
+  Limits limits;
+  limits.axis_jerk = {30000.0, 30000.0, 0.0};
+  LimitZone zone{0.0, 1.0, 100.0};
+  keep_axis_limits({{0.7, 0.7, 0.0}, {1.0, 1.0, 0.0}, Vec3::Zero()}, limits, BendKind::kLasting,
+                   zone);
+  const RampLimits ramp{limits.acceleration, limits.jerk};
+  std::vector<RampLevel> levels;
+  append_ramp_levels(zone, Sense::kForward, ramp, levels);
+  ASSERT_GE(levels.size(), 5U);
+  EXPECT_DOUBLE_EQ(levels.back().acceleration, zone.acceleration);
+  EXPECT_GT(levels.front().acceleration, 0.8 * limits.acceleration);
+  for (const double v : {0.1, 0.3, 0.6}) {
+    const double exact = std::min(zone.acceleration / v, limits.acceleration);
+    const double a = allowed(zone, Sense::kForward, ramp, v * zone.limit);
+    EXPECT_LE(a, exact * (1.0 + 1e-9));
+    EXPECT_GE(a, exact / 1.26);
   }
 }
 

@@ -82,5 +82,24 @@ TEST(CurvatureLimit, KeepsTheNormalAccelerationAtEveryCurvature) {
   }
 }
 
+TEST(CurvatureLimit,
+     TheMonotoneRuleIsThatOfThePaperAtItsCriticalFeedrateAndNeverFallsWithTheFeedrate) {
+  const Limits limits;
+  const PlanningModel model;
+  for (double curvature = 1e-4; curvature < 1e4; curvature *= 1.05) {
+    EXPECT_DOUBLE_EQ(monotone_curvature_feedrate(curvature, 50.0, model, limits),
+                     curvature_feedrate(curvature, 50.0, model, limits));
+    double before = 0.0;
+    for (double v = 1.0; v < 1000.0; v *= 1.1) {
+      const double limit = monotone_curvature_feedrate(curvature, v, model, limits);
+      EXPECT_GE(limit, before);
+      EXPECT_LE(limit, v);
+      EXPECT_LE(curvature * limit * limit, limits.acceleration * (1.0 + 1e-12));
+      before = limit;
+    }
+  }
+  EXPECT_EQ(monotone_curvature_feedrate(0.0, 50.0, model, limits), 50.0);
+}
+
 }  // namespace curvature_limit_test
 }  // namespace twin::feedrate

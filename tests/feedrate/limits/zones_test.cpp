@@ -14,9 +14,12 @@ using test::polyline;
 const Limits kLimits;
 const PlanningModel kModel;
 
+/// By the paper's rules.
 std::vector<LimitZone> zones_of(const path::Segment& segment, double s0 = 0.0) {
   std::vector<LimitZone> zones;
-  append_segment_limits(segment, s0, segment.feedrate, {kLimits, kModel, {}, 1e-3}, zones);
+  PathSettings paper;
+  paper.planner = Planner::kPaper;
+  append_segment_limits(segment, s0, segment.feedrate, {kLimits, kModel, paper, 1e-3}, zones);
   return zones;
 }
 

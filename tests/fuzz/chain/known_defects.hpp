@@ -9,12 +9,6 @@
 /// environment variable TWIN_FUZZ_KNOWN switches all filters off.
 namespace twin::fuzz {
 
-/// Makes a case harmless where it would hang or end the process by a known defect.
-void pass_by_known_defects(Case& made);
-
-/// Whether a motion may seem endless by a known defect.
-bool is_known_to_crawl(const Case& made);
-
 /// The known defect by which a measure of a case exceeds what is tolerated; empty if there is none.
 std::string_view known_defect(const Case& made, Measure measure, double share);
 

@@ -108,8 +108,7 @@ Outcome examine(const Case& made, bool is_repeated) {
     return outcome;
   }
   if (trajectory.ending == Ending::kNone) {
-    (is_known_to_crawl(made) ? outcome.known : outcome.findings)
-        .push_back({"the motion does not end"});
+    outcome.findings.push_back({"the motion does not end"});
     return outcome;
   }
   if (trajectory.points.empty()) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "results/trace/csv_reader.hpp"
+#include "results/trace/trace_reader.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/synthetic_trace.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -50,7 +50,7 @@ TEST(CircularFigure, HasPicturesDataAndAScriptThatSaysTheScale) {
   // Nine rings, two paths, the nominal circle: gnuplot loses circles drawn as objects from an SVG.
   EXPECT_THAT(test::content(base.string() + ".svg"), ::testing::HasSubstr("gnuplot_plot_12"));
   for (const char* sense : {"_ccw.csv", "_cw.csv"}) {
-    auto reader = results::CsvReader::open(base.string() + sense);
+    auto reader = results::TraceReader::open(base.string() + sense);
     ASSERT_TRUE(reader);
     std::array<double, 2> row{};
     double largest = 0.0;

@@ -45,6 +45,15 @@ std::vector<std::string> keys(const Json& json) {
   return names;
 }
 
+TEST(SummaryJson, FilesOfSubprogramsHaveTheirChecksums) {
+  Summary summary = sample_summary();
+  summary.subprograms = {{"slot.ngc", "00ff"}, {"ring.ngc", "1234"}};
+  const Json json = Json::parse(to_json(summary));
+  ASSERT_EQ(json["subprograms"].size(), 2U);
+  EXPECT_EQ(json["subprograms"][1]["file"], "ring.ngc");
+  EXPECT_EQ(json["subprograms"][1]["sha256"], "1234");
+}
+
 TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
   const Json json = Json::parse(to_json(sample_summary()));
   EXPECT_THAT(

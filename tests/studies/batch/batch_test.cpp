@@ -132,11 +132,12 @@ TEST_F(BatchTest, ATraceIsKeptWhereItIsAskedFor) {
   Job job;
   job.program = file();
   job.hal = JobMachine::kIdeal;
-  job.keeps_trace = true;
+  job.trace = results::TraceFiles::kBoth;
   const std::vector<PreparedJob> one{*maker.prepare(job)};
   const Store kept = store();
   ASSERT_TRUE(run_batch(one, kept, {}));
   EXPECT_THAT(test::content(kept.folder_of(one[0]) / "trace.csv"), HasSubstr("t_s,segment,line"));
+  EXPECT_THAT(test::content(kept.folder_of(one[0]) / "trace.h5"), HasSubstr("HDF"));
 }
 
 TEST(JobFile, ALineIsReadBackAsItWasWritten) {

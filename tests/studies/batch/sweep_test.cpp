@@ -7,6 +7,7 @@
 #include "studies/batch/results_table.hpp"
 #include "studies/batch/samples.hpp"
 #include "studies/batch/sweep_file.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace twin::studies::batch {
@@ -80,6 +81,33 @@ TEST(Sweep, EveryCombinationIsAJob) {
   EXPECT_THAT(last.settings,
               ::testing::IsSupersetOf({"servo.x.kd=0.5", "limits.axis_jerk=[1, 2, 3]",
                                        "servo.x.kp=200.5", "servo.y.kp=3"}));
+}
+
+TEST(Sweep, MonteCarloDrawsWhatWasIdentified) {
+  const test::TempFolder folder;
+  test::put(folder.path() / "identify.json", R"({"x": {"parameters": [
+    {"key": "table.x.coulomb_friction_N", "value": 1.8, "sigma": 0.1, "verdict": "identified"},
+    {"key": "table.x.moving_mass_kg", "value": 12, "sigma": 0, "verdict": "not shown"},
+    {"key": "servo.x.kp_per_s", "value": 300, "sigma": null, "verdict": "measured"}],
+    "derived": [{"key": "a", "value": 1, "sigma": 1, "verdict": "identified"}]},
+    "y": {"parameters": [
+    {"key": "table.y.coulomb_friction_N", "value": 4, "sigma": 0.5, "verdict": "uncertain"}]}})");
+  const auto file = folder.path() / "s.toml";
+  const auto sweep = parse_sweep(
+      "program = \"a.nc\"\n[monte_carlo]\ncount = 5\nidentified = \"identify.json\"\n", file);
+  ASSERT_TRUE(sweep) << to_string(sweep.error());
+  EXPECT_THAT(keys_of(*sweep),
+              ElementsAre("program", "table.x.coulomb_friction_N", "table.y.coulomb_friction_N"));
+  EXPECT_DOUBLE_EQ(sweep->normal[1].from, 4.0);
+  EXPECT_DOUBLE_EQ(sweep->normal[1].to, 0.5);
+  EXPECT_EQ(points_of(*sweep)->size(), 5U);
+  for (const char* text : {"{}", "not JSON", "[1, 2]"}) {
+    test::put(folder.path() / "identify.json", text);
+    const auto wrong = parse_sweep(
+        "program = \"a.nc\"\n[monte_carlo]\ncount = 5\nidentified = \"identify.json\"\n", file);
+    ASSERT_FALSE(wrong);
+    EXPECT_THAT(to_string(wrong.error()), HasSubstr("s.toml:4:")) << text;
+  }
 }
 
 TEST(Sweep, WhatIsWrongIsSaidWithLineAndColumn) {

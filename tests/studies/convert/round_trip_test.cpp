@@ -3,7 +3,9 @@
 #include <string>
 #include <tuple>
 
+#include "path/smooth_builder.hpp"
 #include "programs.hpp"
+#include "tests/support/plan.hpp"
 
 namespace twin::studies::convert {
 namespace round_trip_test {
@@ -74,6 +76,29 @@ TEST_P(RoundTrip, ComparisonAgreesWithBruteForce) {
   const double brute = std::max(test::distance_along(new_points, old_points),
                                 test::distance_along(old_points, new_points));
   EXPECT_NEAR(deviation->largest, brute, 1e-4);
+}
+
+// With rounded corners between NURBS and lines, too: gear's have 54 degrees.
+TEST(ConvertedProgram, RunsAsFastAsItsSource) {
+  const auto time_of = [](const std::vector<gcode::Block>& blocks) {
+    const twin::test::PlanSettings settings;
+    std::vector<path::Segment> segments;
+    path::SmoothBuilder builder(
+        settings.path, settings.model, settings.limits,
+        [&](path::Segment&& segment) { segments.push_back(std::move(segment)); });
+    for (const gcode::Block& block : blocks) {
+      builder.push(block);
+    }
+    builder.finish();
+    return twin::test::plan(segments, settings).time;
+  };
+  for (const std::string name : {"gear.nc", "dolphin.nc", "butterfly.nc"}) {
+    const double source = time_of(blocks_of(*gcode::Reader::open(test::program_path(name))));
+    for (const std::string dialect : {"g5.2", "g6.2"}) {
+      const double made = time_of(blocks_of_text(test::convert_file(name, dialect).text));
+      EXPECT_LE(made, 1.01 * source) << name << " as " << dialect;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, RoundTrip,

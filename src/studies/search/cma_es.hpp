@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace twin::studies::identify {
+namespace twin::studies::search {
 
 /// What a search by CMA-ES remembers from one generation to the next; all of it, so that it can be
 /// written to a file and gone on with.
@@ -59,4 +59,4 @@ class CmaEs {
   Eigen::VectorXd lengths_;     // D
 };
 
-}  // namespace twin::studies::identify
+}  // namespace twin::studies::search

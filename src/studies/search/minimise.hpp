@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "studies/identify/cma_es.hpp"
+#include "studies/search/cma_es.hpp"
 
-namespace twin::studies::identify {
+namespace twin::studies::search {
 
 /// The best point that was found.
 struct Minimum {
@@ -53,4 +53,4 @@ struct MinimiseOptions {
 Minimum minimise(const std::function<double(std::span<const double>)>& objective,
                  const MinimiseOptions& options);
 
-}  // namespace twin::studies::identify
+}  // namespace twin::studies::search

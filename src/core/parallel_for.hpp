@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace twin::studies::identify {
+namespace twin {
 
 /// Calls f(0) .. f(count - 1), spread over the processor's cores.
 ///
@@ -14,4 +14,4 @@ namespace twin::studies::identify {
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& f,
                   unsigned threads = 0);
 
-}  // namespace twin::studies::identify
+}  // namespace twin

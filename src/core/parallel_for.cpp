@@ -1,4 +1,4 @@
-#include "studies/identify/parallel_for.hpp"
+#include "core/parallel_for.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace twin::studies::identify {
+namespace twin {
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& f, unsigned threads) {
   const unsigned cores = threads > 0 ? threads : std::max(std::thread::hardware_concurrency(), 1U);
@@ -38,4 +38,4 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& f, 
   }
 }
 
-}  // namespace twin::studies::identify
+}  // namespace twin

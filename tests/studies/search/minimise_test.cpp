@@ -1,13 +1,13 @@
-#include "studies/identify/minimise.hpp"
+#include "studies/search/minimise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "studies/identify/parallel_for.hpp"
+#include "core/parallel_for.hpp"
 
-namespace twin::studies::identify {
+namespace twin::studies::search {
 namespace minimise_test {
 
 /// A bent valley with its only minimum, 0, where every coordinate is 0.6 (Rosenbrock's function).
@@ -114,4 +114,4 @@ TEST(Minimise, ProgressGrowsToItsEndAndTheCostNeverRises) {
 }
 
 }  // namespace minimise_test
-}  // namespace twin::studies::identify
+}  // namespace twin::studies::search

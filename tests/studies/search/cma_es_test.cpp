@@ -1,4 +1,4 @@
-#include "studies/identify/cma_es.hpp"
+#include "studies/search/cma_es.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,15 @@
 #include <fstream>
 #include <optional>
 
-#include "studies/identify/minimise.hpp"
 #include "studies/identify/search_checkpoint.hpp"
+#include "studies/search/minimise.hpp"
 #include "tests/support/temp_folder.hpp"
 
-namespace twin::studies::identify {
+namespace twin::studies::search {
 namespace cma_es_test {
 
+using identify::read_checkpoint;
+using identify::write_checkpoint;
 /// An ellipsoid whose axes differ by a factor of 100, turned; 0 at 0.4.
 double ellipsoid(std::span<const double> x) {
   double sum = 0.0;
@@ -90,4 +92,4 @@ TEST(SearchCheckpoint, OfAnotherFitOrBrokenIsRefusedAndNoneIsNone) {
 }
 
 }  // namespace cma_es_test
-}  // namespace twin::studies::identify
+}  // namespace twin::studies::search

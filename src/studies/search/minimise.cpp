@@ -1,12 +1,12 @@
-#include "studies/identify/minimise.hpp"
+#include "studies/search/minimise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "studies/identify/parallel_for.hpp"
+#include "core/parallel_for.hpp"
 
-namespace twin::studies::identify {
+namespace twin::studies::search {
 namespace {
 
 constexpr double kWorst = 1e300;  // cost of what has none
@@ -115,4 +115,4 @@ Minimum minimise(const std::function<double(std::span<const double>)>& objective
   return state.best;
 }
 
-}  // namespace twin::studies::identify
+}  // namespace twin::studies::search

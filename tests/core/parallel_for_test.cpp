@@ -1,4 +1,4 @@
-#include "studies/identify/parallel_for.hpp"
+#include "core/parallel_for.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace twin::studies::identify {
+namespace twin {
 namespace parallel_for_test {
 
 TEST(ParallelFor, EveryIndexIsVisitedOnceWithAnyNumberOfThreads) {
@@ -35,4 +35,4 @@ TEST(ParallelFor, AnExceptionReachesTheCaller) {
 }
 
 }  // namespace parallel_for_test
-}  // namespace twin::studies::identify
+}  // namespace twin

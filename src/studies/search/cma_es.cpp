@@ -1,4 +1,4 @@
-#include "studies/identify/cma_es.hpp"
+#include "studies/search/cma_es.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "core/linear_algebra.hpp"
 
-namespace twin::studies::identify {
+namespace twin::studies::search {
 namespace {
 
 using Eigen::Index;
@@ -126,4 +126,4 @@ void CmaEs::tell(std::span<const double> costs) {
   ++state_.generation;
 }
 
-}  // namespace twin::studies::identify
+}  // namespace twin::studies::search
