@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -72,19 +73,12 @@ void expect_kept(const test::OverrideRun& run, const std::vector<Vec3>& polygon,
         << at;
   }
   ASSERT_LT((p.back() - polygon.back()).norm(), 1e-4);
-  std::size_t first = 1;
-  for (const Vec3& point : p) {  // the polygon in its order, some blocks at a time
-    double nearest = 1e9;
-    std::size_t at = first;
-    for (std::size_t k = first; k < std::min(first + 12, polygon.size()); ++k) {
-      const double away = test::distance_to(point, polygon[k - 1], polygon[k]);
-      if (away < nearest) {
-        nearest = away;
-        at = k;
-      }
+  for (const Vec3& point : p) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < polygon.size(); ++k) {
+      nearest = std::min(nearest, test::distance_to(point, polygon[k - 1], polygon[k]));
     }
     ASSERT_LE(nearest, machine.planning.corner_error + 1e-5);
-    first = std::max(first, at > 3 ? at - 3 : first);
   }
 }
 
