@@ -47,9 +47,10 @@ void add_limits(List& list, Limits& l) {
                   "feedrate of G00", kPerMinute});
   list.push_back({section, "acceleration", "mm_per_s2", &l.acceleration, 1.0, 1e6,
                   "A_max, tangential and normal, each"});
-  list.push_back({section, "jerk", "mm_per_s3", &l.jerk, 1.0, 1e9, "J_max, tangential"});
-  list.push_back({section, "jerk_of", "", choice(l.jerk_of, {"path", "vector"}), 0.0, 0.0,
-                  "what jerk bounds: along the path, or the vector that the machine feels"});
+  list.push_back({section, "jerk", "mm_per_s3", &l.jerk, 1.0, 1e9, "J_max"});
+  list.push_back(
+      {section, "jerk_of", "", choice(l.jerk_of, {kJerkOfNames.begin(), kJerkOfNames.end()}), 0.0,
+       0.0, "what J_max bounds: the jerk along the path, or that of the position as a vector"});
   list.push_back({section, "axis_feedrate", "mm_per_min", &l.axis_feedrate, 0.0, 1e6,
                   "largest feedrate of each axis, x y z; 0: no limit of its own", kPerMinute});
   list.push_back({section, "axis_acceleration", "mm_per_s2", &l.axis_acceleration, 0.0, 1e6,
@@ -67,6 +68,9 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
   list.push_back({section, "planner", "",
                   choice(s.planner, {kPlannerNames.begin(), kPlannerNames.end()}), 0.0, 0.0,
                   "what makes path and feedrates"});
+  list.push_back({section, "corners", "",
+                  choice(s.corners, {kCornerNames.begin(), kCornerNames.end()}), 0.0, 0.0,
+                  "how corners between lines are passed with limits.jerk_of = vector"});
   list.push_back(
       {section, "kp", "per_s", &p.kp, 1e-3, 1e5, "position gain Kp the planner believes in"});
   list.push_back({section, "kf", "", &p.kf, 0.0, 0.999,

@@ -88,6 +88,16 @@ Expected<void> check_rig_rules(const hal::rig::RigSettings& rig) {
       .and_then([&] { return check_distinct("analogue input", analogue); });
 }
 
+/// Only the certified planner bounds the jerk as a vector.
+Expected<void> check_jerk(const MachineFile& machine) {
+  if (machine.path.planner == Planner::kPaper && machine.limits.jerk_of == JerkOf::kVector) {
+    return fail(ErrorCode::kUsage,
+                "limits.jerk_of = vector, but planning.planner = paper bounds the jerk along the "
+                "path only: take planning.planner = certified, or limits.jerk_of = path");
+  }
+  return {};
+}
+
 /// Refuses a limit of a single axis that all but forbids the axis to move. @param least  as for the
 /// limit of the whole path, in the unit of the key, of which `scale` are a base unit
 Expected<void> check_axis_limit(std::string_view key, const Vec3& limit, double scale,
@@ -117,10 +127,10 @@ Expected<void> check_axis_limits(const Limits& limits) {
 }  // namespace
 
 Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>& given) {
-  const std::vector<PaperOnly> paper_only = machine.path.planner == Planner::kCertified
-                                                ? paper_only_settings(machine)
-                                                : std::vector<PaperOnly>{};
-  for (const PaperOnly& setting : paper_only) {
+  if (machine.path.planner != Planner::kCertified) {
+    return check_jerk(machine);
+  }
+  for (const PaperOnly& setting : paper_only_settings(machine)) {
     if (given.contains("planning.planner") && given.contains(setting.path)) {
       return fail(ErrorCode::kUsage,
                   fmt::format("planning.planner = certified does not have {} = {}, only paper has "
@@ -131,12 +141,7 @@ Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>
     machine.add_note(
         fmt::format("planning.planner = paper, because {} = {}", setting.path, setting.value));
   }
-  if (machine.path.planner == Planner::kPaper && machine.limits.jerk_of == JerkOf::kVector) {
-    return fail(ErrorCode::kUsage,
-                "limits.jerk_of = vector is the certified planner's alone, and planning.planner is "
-                "paper: leave one of them out");
-  }
-  return {};
+  return check_jerk(machine);
 }
 
 Expected<void> check_rules(const MachineFile& machine) {

@@ -1,24 +1,29 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "core/vec.hpp"
 
 namespace twin {
 
-/// What J_max bounds; limits.jerk_of of the machine file.
+/// Which jerk Limits::jerk bounds: limits.jerk_of of the machine file.
 enum class JerkOf : std::uint8_t {
-  kPath,    ///< the third derivative of the way along the path, as the paper has it
-  kVector,  ///< |d3x/dt3|, what the machine feels: in bends and corners, too
+  kPath,    ///< d2v/dt2 of the feedrate along the path [WY09]
+  kVector,  ///< |d3x/dt3| of the position, which is what a machine feels
 };
+
+/// Names of the jerks, in the order of JerkOf.
+inline constexpr std::array<std::string_view, 2> kJerkOfNames{"path", "vector"};
 
 /// What the machine may be asked to do along its path.
 struct Limits {
-  double feedrate = 200.0;                 ///< largest feedrate the machine accepts [mm/s]
-  double rapid_feedrate = 100.0;           ///< feedrate of G00 [mm/s]
-  double acceleration = 2450.0;            ///< A_max, tangential and normal, each [mm/s^2]
-  double jerk = 50000.0;                   ///< J_max, tangential [mm/s^3]
-  JerkOf jerk_of = JerkOf::kPath;          ///< whether J_max bounds the vector of jerk, too
+  double feedrate = 200.0;        ///< largest feedrate the machine accepts [mm/s]
+  double rapid_feedrate = 100.0;  ///< feedrate of G00 [mm/s]
+  double acceleration = 2450.0;   ///< A_max, tangential and normal, each [mm/s^2]
+  double jerk = 50000.0;          ///< J_max [mm/s^3]
+  JerkOf jerk_of = JerkOf::kPath;
   Vec3 axis_feedrate = Vec3::Zero();       ///< of each axis; 0: no limit of its own [mm/s]
   Vec3 axis_acceleration = Vec3::Zero();   ///< of each axis; 0: no limit of its own [mm/s^2]
   Vec3 axis_jerk = Vec3::Zero();           ///< of each axis; 0: no limit of its own [mm/s^3]

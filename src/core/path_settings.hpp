@@ -19,6 +19,16 @@ enum class Planner : std::uint8_t {
   kCertified,  ///< one path of continuous curvature within the tolerance, all limits guaranteed
 };
 
+/// How the certified planner passes the corner between two lines where the jerk is limited as a
+/// vector: planning.corners.
+enum class CornerKind : std::uint8_t {
+  kCurve,    ///< on a curve of continuous curvature, at the feedrate that it allows
+  kPassage,  ///< by a motion in time whose jerk is limited as a vector (path::CornerMotion)
+};
+
+/// Names of the kinds of corners, in the order of CornerKind.
+inline constexpr std::array<std::string_view, 2> kCornerNames{"curve", "passage"};
+
 /// Names of the kinds of curves, in the order of CurveKind.
 inline constexpr std::array<std::string_view, 3> kCurveNames{"nurbs", "bezier", "linear"};
 
@@ -30,6 +40,7 @@ inline constexpr std::array<std::string_view, 2> kPlannerNames{"paper", "certifi
 struct PathSettings {
   Planner planner = Planner::kCertified;  ///< the one that plans: see config::resolve_planner
   CurveKind curves = CurveKind::kNurbs;
+  CornerKind corners = CornerKind::kPassage;
   double chord_error = 0.01;  ///< chord tolerance, and the curve's distance from the polygon [mm]
   int min_segments = 3;       ///< fewest blocks that are fitted into one curve
   int max_segments = 20;      ///< most blocks in one curve

@@ -77,8 +77,8 @@ class CertifiedPlanner final : public PlannerParts {
     return std::make_unique<CertifiedLimits>(of_.limits, of_.model, of_.path, of_.period);
   }
   std::unique_ptr<WindowPlanner> make_window_planner() const override {
-    const auto ramps = has_axis_limits(of_.limits) ? GlidePlanner::Ramps::kOfZones
-                                                   : GlidePlanner::Ramps::kOfMachine;
+    const bool is_even = !has_axis_limits(of_.limits) && of_.limits.jerk_of == JerkOf::kPath;
+    const auto ramps = is_even ? GlidePlanner::Ramps::kOfMachine : GlidePlanner::Ramps::kOfZones;
     return std::make_unique<GlidePlanner>(of_.ramp(), ramps, of_.corner_reach(), of_.look_ahead());
   }
 
@@ -103,7 +103,8 @@ bool raise_limits(Window& window, double last, const RampLimits& ramp) {
   const double to = std::min(last, start.s + longest_descent(start.v, start.v, ramp));
   bool is_raised = false;
   for (LimitZone& zone : window.zones) {
-    if (zone.end > start.s && zone.begin < to && zone.limit > 0.0 && zone.limit < start.v) {
+    if (zone.end > start.s && zone.begin < to && zone.limit > 0.0 && zone.limit < start.v &&
+        !is_passage(zone)) {
       zone.limit = start.v;
       is_raised = true;
     }

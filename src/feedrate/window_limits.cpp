@@ -6,6 +6,12 @@
 #include "feedrate/profile/ramps.hpp"
 
 namespace twin::feedrate {
+namespace {
+
+/// Halvings of a range of feedrates: as many as its digits.
+constexpr int kDescentHalvings = 50;
+
+}  // namespace
 
 WindowLimits::WindowLimits(const Limits& limits, const PlanningModel& model, double period,
                            std::unique_ptr<LimitSource> source, const PlanStart& start,
@@ -34,6 +40,10 @@ void WindowLimits::append(const path::Segment& segment, Window& window) {
       asked < start_.v
           ? start_.s + ramp_distance(start_.v, asked, source_->least_ramp()) - window.length
           : 0.0;
+  if (down > 0.0 && std::holds_alternative<path::CornerMotion>(segment.geometry)) {
+    append_passage(segment, asked, window);
+    return;
+  }
   if (down > 0.0 && segment.length > 0.0) {
     append_descent(segment, asked, down, window);
     return;
@@ -43,6 +53,20 @@ void WindowLimits::append(const path::Segment& segment, Window& window) {
   if (first > 0 && first < window.zones.size()) {
     source_->merge(window.zones, first);
   }
+}
+
+/// Appends the limit of a passage on the way down from the start's feedrate. The motion comes down as
+/// far as it can before the passage, and goes on coming down after it.
+void WindowLimits::append_passage(const path::Segment& segment, double asked, Window& window) {
+  const double room = std::max(window.length - start_.s, 0.0);
+  double high = start_.v;  // can be had
+  double low = asked;
+  for (int i = 0; i < kDescentHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (ramp_distance(start_.v, middle, source_->least_ramp()) <= room ? high : low) = middle;
+  }
+  source_->append(segment, window.length, high, window.zones);
+  start_ = {window.length + segment.length, std::min(high, window.zones.back().limit)};
 }
 
 /// Appends the limits of a segment on which the start's feedrate comes down to the one asked for.

@@ -36,6 +36,7 @@ class WindowLimits {
 
  private:
   double asked_feedrate(const path::Segment& segment) const;
+  void append_passage(const path::Segment& segment, double asked, Window& window);
   void append_descent(const path::Segment& segment, double asked, double down, Window& window);
 
   Limits limits_;

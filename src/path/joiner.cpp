@@ -104,6 +104,7 @@ void Joiner::begin_element(Kind kind, double begin, double end) {
   under_way_.end = end;
   under_way_.tolerance = tolerance_;
   under_way_.feedrate = feedrate_;
+  under_way_.passage = 0.0;
   under_way_.spans.restart(0);
   is_joined_ = false;
 }
@@ -181,6 +182,9 @@ void Joiner::join_to_last() {
                         bump.bend.norm() > (is_curve ? kNoBendOfCurve : kNoJump);
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
+  if (bump.turn.norm() > kNoJump && join_by_passage(width)) {
+    return;
+  }
   if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin)) {
     emit_body(before_, before_.end);
     if (has_jump) {
@@ -192,12 +196,41 @@ void Joiner::join_to_last() {
   emit_bump(bump, width);
 }
 
+/// Passes the corner between two lines by a motion in time.
+/// @param bump_width  half width of the bump that could be there [mm]
+/// @returns false, with nothing done, where there is no better one than the bump
+bool Joiner::join_by_passage(double bump_width) {
+  if (corners_ != CornerKind::kPassage || limits_.jerk_of != JerkOf::kVector ||
+      before_.kind != Kind::kLine || under_way_.kind != Kind::kLine) {
+    return false;
+  }
+  const double tolerance = kShareUsed * std::min(before_.tolerance, under_way_.tolerance);
+  const double corner = before_.end;
+  const double after = under_way_.end - under_way_.begin;
+  const auto passage =
+      fit_passage(under_way_.line.start,
+                  {before_.line.direction, corner - before_.begin, corner - before_.from,
+                   before_.feedrate, before_.passage},
+                  {under_way_.line.direction, after, (1.0 - kMostOfLegBesidePassage) * after,
+                   under_way_.feedrate, 0.0},
+                  tolerance, bump_width, limits_, passages_);
+  if (!passage) {
+    return false;
+  }
+  emit_line(before_, corner - passage->way);
+  writer_.passage(*passage, corner - passage->way, corner + passage->way);
+  under_way_.from = corner + passage->way;
+  under_way_.passage = passage->feedrate;
+  return true;
+}
+
 /// Half width that the tolerance and both elements allow [mm].
 double Joiner::bump_width(const geometry::CornerBump& bump) const {
   const double tolerance = kShareUsed * std::min(before_.tolerance, under_way_.tolerance);
   const double room = before_.end - before_.from;
   const double corner = before_.end;
-  double width = std::min({kWidest, 0.5 * (before_.end - before_.begin), room,
+  const double share = before_.passage > 0.0 ? kMostOfLegBesidePassage : 0.5;
+  double width = std::min({kWidest, share * (before_.end - before_.begin), room,
                            0.5 * (under_way_.end - under_way_.begin), bump.width(tolerance)});
   const double base = std::max(deviation(before_, corner - width, corner),
                                deviation(under_way_, corner, corner + width));
@@ -296,6 +329,14 @@ void Joiner::append_pieces(const Element& element, double begin, double end) {
   }
 }
 
+/// Sends what is left of a line before `end` to the writer, as a line.
+void Joiner::emit_line(Element& element, double end) {
+  writer_.line({element.line.start + (element.from - element.begin) * element.line.direction,
+                element.line.direction},
+               element.from, end);
+  element.from = end;
+}
+
 /// Sends what is left of an element before `end` to the writer.
 void Joiner::emit_body(Element& element, double end) {
   const double length = end - element.from;
@@ -314,10 +355,9 @@ void Joiner::emit_body(Element& element, double end) {
                       : part_of(element.curve, element.from - element.begin, end - element.begin),
                   element.from, end);
   } else if (element.kind == Kind::kLine &&
-             length >= std::min(kMergedLine, element.end - element.begin)) {
-    writer_.line({element.line.start + (element.from - element.begin) * element.line.direction,
-                  element.line.direction},
-                 element.from, end);
+             (element.passage > 0.0 ||
+              length >= std::min(kMergedLine, element.end - element.begin))) {
+    emit_line(element, end);
   } else {
     pieces_.clear();
     append_pieces(element, element.from, end);

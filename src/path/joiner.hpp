@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "core/limits.hpp"
+#include "core/path_settings.hpp"
 #include "geometry/smoothing/corner_bump.hpp"
 #include "geometry/smoothing/sliding_vector.hpp"
 #include "geometry/smoothing/span_checker.hpp"
 #include "path/arc_pieces.hpp"
+#include "path/corner/corner_fit.hpp"
+#include "path/corner/corner_table.hpp"
 #include "path/segment_writer.hpp"
 
 namespace twin::path {
@@ -20,8 +23,11 @@ namespace twin::path {
 /// append_curve_pieces). Outside, lines, arcs and NURBS are exact. A joint of a NURBS that is smooth
 /// but for rounding, and for decimals that the feedrate does not feel, is left as it is.
 ///
-/// A corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp. So
-/// does one where the jerk of single axes, or its vector, lets a stop at the corner lose less time than the way
+/// With CornerKind::kPassage and JerkOf::kVector a corner between two lines becomes a passage, a
+/// motion in time (corner/corner_fit.hpp), where that loses less time.
+///
+/// Else a corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp. So
+/// does one where the jerk of single axes lets a stop at the corner lose less time than the way
 /// through the bump (path/passage.hpp).
 ///
 /// Elements (lines, arcs, runs, pieces of a NURBS) come in order, with the length of the base path at their ends; a
@@ -30,7 +36,8 @@ namespace twin::path {
 /// change.
 class Joiner : public geometry::RunSink {
  public:
-  Joiner(SegmentWriter& writer, const Limits& limits) : writer_(writer), limits_(limits) {}
+  Joiner(SegmentWriter& writer, const Limits& limits, CornerKind corners)
+      : writer_(writer), limits_(limits), corners_(corners) {}
 
   /// Sets what is asked for on the elements that follow.
   /// @param tolerance  [mm]
@@ -62,6 +69,7 @@ class Joiner : public geometry::RunSink {
     double from = 0.0;   // the writer has got the part before this length [mm]
     double tolerance = 0.0;
     double feedrate = 0.0;
+    double passage = 0.0;  // feedrate of the passage at its begin; 0: there is none [mm/s]
     Line line;
     Arc arc;
     FittedCurve curve;
@@ -72,11 +80,13 @@ class Joiner : public geometry::RunSink {
   void join_to_last();
   void end_element();
   void release_spans();
+  bool join_by_passage(double bump_width);
   double bump_width(const geometry::CornerBump& bump) const;
   bool is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
                        const PathPoint& begin) const;
   void emit_bump(const geometry::CornerBump& bump, double width);
   void emit_body(Element& element, double end);
+  void emit_line(Element& element, double end);
 
   static PathPoint base_point(const Element& element, ElementEnd end);
   static double deviation(const Element& element, double begin, double end);
@@ -84,6 +94,8 @@ class Joiner : public geometry::RunSink {
 
   SegmentWriter& writer_;
   Limits limits_;
+  CornerKind corners_;
+  CornerTable passages_;
   double tolerance_ = 0.0;
   double feedrate_ = 0.0;
   Element before_;

@@ -8,6 +8,7 @@
 #include "geometry/arc.hpp"
 #include "geometry/nurbs/arc_length.hpp"
 #include "geometry/nurbs/curve.hpp"
+#include "path/corner/corner_motion.hpp"
 
 namespace twin::path {
 
@@ -46,9 +47,10 @@ struct BlockMark {
   std::int64_t line = 0;   ///< its NC line
 };
 
-/// One segment of the path: a line, an arc, a curve, or a dwell (std::monostate, length 0).
+/// One segment of the path: a line, an arc, a curve, the passage of a corner, or a dwell
+/// (std::monostate, length 0). The length of a passage is CornerMotion::length().
 struct Segment {
-  std::variant<std::monostate, Line, Arc, FittedCurve> geometry;
+  std::variant<std::monostate, Line, Arc, FittedCurve, CornerMotion> geometry;
   double length = 0.0;           ///< arc length [mm]
   double feedrate = 0.0;         ///< programmed feedrate, or the rapid's [mm/s]
   double corner_error = 0.0;     ///< contour error that is allowed at the corner at its end [mm]

@@ -134,7 +134,9 @@ void SegmentWriter::exact(Segment&& segment, double begin, double end) {
   advance_to(begin + kSame);
   flush();
   first_ = at_;
-  mark_blocks(segment, end, [&](double s) { return s - begin; });
+  const bool is_passage = std::holds_alternative<CornerMotion>(segment.geometry);
+  const double scale = is_passage ? segment.length / (end - begin) : 1.0;
+  mark_blocks(segment, end, [&](double s) { return (s - begin) * scale; });
   emit(std::move(segment));
 }
 
@@ -153,6 +155,20 @@ void SegmentWriter::arc(const Arc& arc, double begin, double end) {
   segment.begin = point_at(arc, 0.0);
   segment.end = point_at(arc, arc.length);
   segment.geometry = arc;
+  exact(std::move(segment), begin, end);
+}
+
+void SegmentWriter::passage(const CornerMotion& passage, double begin, double end) {
+  Segment segment;
+  segment.length = passage.length();
+  const auto point = [&](double s) -> PathPoint {
+    const SpaceMotion at = motion_in(passage, s, passage.feedrate, 0.0);
+    return {at.position, at.velocity.normalized(), Vec3::Zero()};
+  };
+  segment.begin = point(0.0);
+  segment.end = point(segment.length);
+  segment.deviation = passage.deviation;
+  segment.geometry = passage;
   exact(std::move(segment), begin, end);
 }
 

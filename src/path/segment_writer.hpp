@@ -55,6 +55,8 @@ class SegmentWriter {
   void line(const Line& line, double begin, double end);
   /// Appends an arc; begin and end as for line().
   void arc(const Arc& arc, double begin, double end);
+  /// Appends the passage of a corner between two lines; begin and end as for line().
+  void passage(const CornerMotion& passage, double begin, double end);
   /// Appends a NURBS of the program; begin and end as for line().
   void curve(FittedCurve&& curve, double begin, double end);
   /// Appends a segment that is complete and has its own marks.

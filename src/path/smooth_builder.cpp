@@ -23,7 +23,7 @@ SmoothBuilder::SmoothBuilder(const PathSettings& settings, const PlanningModel& 
       model_(model),
       limits_(limits),
       writer_(std::move(sink)),
-      joiner_(writer_, limits),
+      joiner_(writer_, limits, settings.corners),
       run_(joiner_) {}
 
 /// What is left of the tolerance at corners, less that of the specks.

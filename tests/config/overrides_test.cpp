@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/rules.hpp"
-
 namespace twin::config {
 namespace overrides_test {
 
@@ -139,6 +137,16 @@ TEST(Overrides, WhatTheCertifiedPlannerDoesNotHaveMakesThePlannerThePapersWithAN
   }
 }
 
+TEST(Overrides, TheVectorOfTheJerkIsRefusedWithThePapersPlanner) {
+  for (const char* text : {"planning.planner=paper", "path.curves=bezier"}) {
+    MachineFile machine;
+    const auto done =
+        apply_overrides(machine, std::vector<std::string>{"limits.jerk_of=vector", text});
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("limits.jerk_of = vector, but"));
+  }
+}
+
 TEST(Overrides, AskingForTheCertifiedPlannerAndWhatItDoesNotHaveIsRefused) {
   MachineFile machine;
   const auto done = apply_overrides(
@@ -158,18 +166,6 @@ TEST(Overrides, LaterOnesWin) {
   const std::vector<std::string> texts{"limits.jerk=1000", "limits.jerk_mm_per_s3=2000"};
   ASSERT_TRUE(apply_overrides(machine, texts));
   EXPECT_DOUBLE_EQ(machine.limits.jerk, 2000.0);
-}
-
-TEST(Overrides, TheVectorOfJerkIsNotForThePaper) {
-  EXPECT_THAT(refusal("limits.jerk_of=both"), HasSubstr("limits.jerk_of"));
-  MachineFile machine;
-  ASSERT_TRUE(apply_override(machine, "limits.jerk_of=vector"));
-  EXPECT_TRUE(resolve_planner(machine));
-  machine.path.planner = Planner::kPaper;
-  const auto refused = resolve_planner(machine);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message,
-              HasSubstr("limits.jerk_of = vector is the certified planner's alone"));
 }
 
 }  // namespace overrides_test

@@ -41,6 +41,10 @@ inline path::PathPoint place(const path::Segment& segment, double s) {
   if (const auto* line = std::get_if<path::Line>(&segment.geometry)) {
     return path::point_at(*line, s);
   }
+  if (const auto* passage = std::get_if<path::CornerMotion>(&segment.geometry)) {
+    const path::SpaceMotion at = path::motion_in(*passage, s, passage->feedrate, 0.0);
+    return {at.position, at.velocity.normalized(), Vec3::Zero()};
+  }
   return segment.begin;
 }
 

@@ -232,6 +232,8 @@ void Divider::divide() {
     divide_arc(*arc);
   } else if (std::holds_alternative<path::Line>(segment_.geometry)) {
     divide_line();
+  } else if (std::holds_alternative<path::CornerMotion>(segment_.geometry)) {
+    append_free(segment_.length, zone_limit(0.0, segment_.length), limits_.acceleration);
   }
 }
 

@@ -9,6 +9,12 @@
 #include "path/passage.hpp"
 
 namespace twin::feedrate {
+
+/// Derivatives of a curve by arc length, axis by axis.
+struct ByArcLength {
+  Vec3 first, second, third;
+};
+
 namespace {
 
 /// Bound of the third derivative, over what three samples of it give. It covers what a parabola
@@ -82,11 +88,6 @@ PlanningModel with_circular_error(PlanningModel model, double error) {
   return model;
 }
 
-/// Derivatives of a curve by arc length, axis by axis.
-struct ByArcLength {
-  Vec3 first, second, third;
-};
-
 ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
   const double square = std::max(at.first.squaredNorm(), 1e-300);
   const double u1 = 1.0 / std::sqrt(square);
@@ -137,6 +138,29 @@ PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByAr
   return bounds;
 }
 
+/// The same of the derivatives as vectors, in the first component. What C'' v a and C''' v^3 add to the
+/// vector of the jerk is no more than the sum of their lengths.
+PathBounds vector_bounds_between(const ByArcLength& a, const ByArcLength& c, const ByArcLength& b,
+                                 double length) {
+  const auto largest = [](const Vec3& x, const Vec3& y, const Vec3& z) {
+    return std::sqrt(std::max({x.squaredNorm(), y.squaredNorm(), z.squaredNorm()}));
+  };
+  PathBounds bounds;
+  const double bulge = (c.third - 0.5 * (a.third + b.third)).norm();
+  bounds.twist[0] = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
+  bounds.curvature[0] = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist[0];
+  bounds.tangent[0] = 1.0;
+  return bounds;
+}
+
+/// The jerk as a limit of the first component.
+Limits vector_limits_of(const Limits& limits) {
+  Limits vector = limits;
+  vector.axis_feedrate = vector.axis_acceleration = vector.axis_jerk = Vec3::Zero();
+  vector.axis_jerk[0] = limits.jerk;
+  return vector;
+}
+
 }  // namespace
 
 CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& model,
@@ -148,6 +172,8 @@ CertifiedLimits::CertifiedLimits(const Limits& limits, const PlanningModel& mode
       chord_error_(path.chord_error),
       period_(period),
       has_axis_limits_(has_axis_limits(limits)),
+      has_vector_limits_(limits.jerk_of == JerkOf::kVector),
+      vector_limits_(vector_limits_of(limits)),
       bends_(model.corner_error) {}
 
 /// Feedrate at which any turn at all may lie within a period: it changes the velocity by less than
@@ -199,6 +225,22 @@ double CertifiedLimits::dip_limit(const BendPeak& peak, double limit, double fee
   return limit * path::best_passage(peak.half, limit, reached, jerk).dip;
 }
 
+/// Lowers the limits of a zone to what the axes allow, and the jerk as a vector.
+void CertifiedLimits::keep_derivatives(const ByArcLength& begin, const ByArcLength& middle,
+                                       const ByArcLength& end, BendKind bend,
+                                       LimitZone& zone) const {
+  const double length = zone.end - zone.begin;
+  if (has_axis_limits_) {
+    keep_axis_limits(bounds_between(begin, middle, end, length), limits_, bend, zone);
+  }
+  if (has_vector_limits_) {
+    keep_axis_limits(vector_bounds_between(begin, middle, end, length), vector_limits_, bend, zone);
+  }
+  if (has_axis_limits_ && has_vector_limits_) {
+    zone.most = 0.0;  // what is left below the limit is known of each of them, not of both
+  }
+}
+
 /// Lowers the limits of an interval of a curve to what the axes allow.
 void CertifiedLimits::keep_axes(const path::FittedCurve& curve, const BendInterval& interval,
                                 LimitZone& zone) const {
@@ -209,24 +251,23 @@ void CertifiedLimits::keep_axes(const path::FittedCurve& curve, const BendInterv
   const auto to = curve.curve.derivatives(u1, span);
   const auto middle = curve.curve.derivatives(0.5 * (u0 + u1), span);
   const Vec3 third = (to.second - from.second) / (u1 - u0);
-  keep_axis_limits(bounds_between(by_arc_length(from, third), by_arc_length(middle, third),
-                                  by_arc_length(to, third), zone.end - zone.begin),
-                   limits_, interval.is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
+  keep_derivatives(by_arc_length(from, third), by_arc_length(middle, third),
+                   by_arc_length(to, third),
+                   interval.is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
   put_on_steps(ramp_, zone);
 }
 
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
   bends_.find(curve);
-  const bool has_dips =
-      limits_.jerk_of == JerkOf::kVector || (limits_.axis_jerk.array() > 0.0).any();
-  ZoneRow row(zones, has_axis_limits_ ? kBriefZone * period_ : 0.0);
+  const bool has_dips = has_vector_limits_ || (limits_.axis_jerk.array() > 0.0).any();
+  ZoneRow row(zones, has_axis_limits_ || has_vector_limits_ ? kBriefZone * period_ : 0.0);
   auto peak = bends_.peaks().begin();
   for (std::size_t i = 0; i < bends_.intervals().size(); ++i) {
     const BendInterval& interval = bends_.intervals()[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end,
                    limit_at(interval, feedrate, On::kCurve)};
-    if (has_axis_limits_) {
+    if (has_axis_limits_ || has_vector_limits_) {
       keep_axes(curve, interval, zone);
     }
     if (has_dips && peak != bends_.peaks().end() && peak->interval == i) {
@@ -253,14 +294,13 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
     const double begin = segment.length * i / parts;
     const double end = i + 1 == parts ? segment.length : segment.length * (i + 1) / parts;
     LimitZone zone{s0 + begin, s0 + end, limit};
-    if (has_axis_limits_ && segment.length > 0.0) {
+    if ((has_axis_limits_ || has_vector_limits_) && segment.length > 0.0) {
       const auto at = [&](double s) -> ByArcLength {
         const path::PathPoint p = arc != nullptr ? path::point_at(*arc, s) : segment.begin;
         return {p.tangent, p.curvature,
                 arc != nullptr ? arc_twist(arc->geometry, p) : Vec3::Zero()};
       };
-      keep_axis_limits(bounds_between(at(begin), at(0.5 * (begin + end)), at(end), end - begin),
-                       limits_, BendKind::kLasting, zone);
+      keep_derivatives(at(begin), at(0.5 * (begin + end)), at(end), BendKind::kLasting, zone);
       if (parts > 1) {
         put_on_steps(ramp_, zone);
       }
@@ -273,8 +313,8 @@ void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) co
   LimitZone& before = zones[first - 1];
   const LimitZone& zone = zones[first];
   if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
-      before.limit == zone.limit && before.acceleration == zone.acceleration &&
-      before.jerk == zone.jerk) {
+      !is_passage(before) && !is_passage(zone) && before.limit == zone.limit &&
+      before.acceleration == zone.acceleration && before.jerk == zone.jerk) {
     before.end = zone.end;
     zones.erase(zones.begin() + static_cast<std::ptrdiff_t>(first));
   }
@@ -282,7 +322,7 @@ void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) co
 
 RampLimits CertifiedLimits::least_ramp() const {
   RampLimits least = ramp_;
-  if (limits_.jerk_of == JerkOf::kVector) {
+  if (has_vector_limits_) {
     least.jerk *= kRest;
   }
   for (int i = 0; i < 3; ++i) {
@@ -300,6 +340,10 @@ void CertifiedLimits::append(const path::Segment& segment, double s0, double fee
                              std::vector<LimitZone>& zones) {
   if (const auto* curve = std::get_if<path::FittedCurve>(&segment.geometry)) {
     append_curve(*curve, s0, feedrate, zones);
+  } else if (const auto* passage = std::get_if<path::CornerMotion>(&segment.geometry)) {
+    const path::SlowPassage slow = path::slow_passage(*passage);
+    zones.push_back({s0, s0 + segment.length, std::min(passage->feedrate, feedrate),
+                     slow.acceleration, slow.acceleration, slow.jerk, slow.feedrate});
   } else {
     append_arc(segment, s0, feedrate, zones);
   }

@@ -5,11 +5,14 @@
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "feedrate/certified/bends.hpp"
+#include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/planner.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
+
+struct ByArcLength;
 
 /// The feedrate limits inside segments with planning.planner = certified. The limits hold at every
 /// place of a segment, not only where its curvature was sampled.
@@ -19,7 +22,7 @@ namespace twin::feedrate {
 ///   the limit of the machine file's rule (FeedrateRules), with kappa v^2 <= A_max,
 ///   the feedrate at which the chord of a period keeps the chord tolerance (chord_error_feedrate),
 ///   the feedrate at which the path turns by no more than the set points can tell in a period,
-///   the limits of each axis (axis_limits.hpp), where they are set.
+///   the limits of each axis (axis_limits.hpp), where they are set, and of the jerk as a vector.
 ///
 /// The servo model allows two contour errors: the circular error where the path is curved for long,
 /// and the larger corner error at a rounded corner, which is a brief bend (bends.hpp).
@@ -46,6 +49,8 @@ class CertifiedLimits final : public LimitSource {
   double most_turn(const BendInterval& interval) const noexcept;
   double limit_at(const BendInterval& interval, double feedrate, On what) const;
   double dip_limit(const BendPeak& peak, double limit, double feedrate, const Vec3& tangent) const;
+  void keep_derivatives(const ByArcLength& begin, const ByArcLength& middle, const ByArcLength& end,
+                        BendKind bend, LimitZone& zone) const;
   void keep_axes(const path::FittedCurve& curve, const BendInterval& interval,
                  LimitZone& zone) const;
   void append_curve(const path::FittedCurve& curve, double s0, double feedrate,
@@ -60,6 +65,8 @@ class CertifiedLimits final : public LimitSource {
   double chord_error_;
   double period_;
   bool has_axis_limits_;
+  bool has_vector_limits_;
+  Limits vector_limits_;
   Bends bends_;  // of the curve that is being processed
 };
 

@@ -79,7 +79,12 @@ bool GlidePlanner::is_due(const Window& window) const {
 }
 
 void GlidePlanner::schedule(const Window& window) {
-  const double braking = longest_descent(window.fastest, window.fastest, ramp_);
+  double braking = longest_descent(window.fastest, window.fastest, ramp_);
+  double passage = 0.0;  // longest one, which is no place to brake
+  for (const LimitZone& zone : window.zones) {
+    passage = is_passage(zone) ? std::max(passage, zone.end - zone.begin) : passage;
+  }
+  braking += passage;
   due_.length = window.length + kBrakingDistances * braking + corner_reach_;
   due_.segments = std::max(window.segments.size() + look_ahead_, kMostSegments / 4);
   due_.zones = window.zones.size() + std::max(window.zones.size(), kFewestZones);
@@ -151,7 +156,7 @@ void GlidePlanner::plan_evenly(const Window& window, double horizon) {
   std::vector<LimitZone> even(window.zones);
   double lowest = std::numeric_limits<double>::infinity();
   for (const LimitZone& zone : even) {
-    lowest = zone.limit > 0.0 ? std::min(lowest, zone.limit) : lowest;
+    lowest = zone.limit > 0.0 ? std::min({lowest, zone.limit, zone.held_above}) : lowest;
   }
   for (LimitZone& zone : even) {
     zone = {zone.begin,          zone.end,   std::min(zone.limit, lowest), least_.acceleration,
@@ -203,6 +208,9 @@ double GlidePlanner::descent_at(const Window& window, double horizon, double v) 
     if (zone.end <= horizon - distance) {
       break;
     }
+    if (is_passage(zone) && zone.begin >= horizon - kPlaceRounding) {
+      continue;
+    }
     least.acceleration = std::min(least.acceleration, zone.deceleration);
     least.jerk = std::min(least.jerk, zone.jerk);
     distance = longest_descent(v, v, least);
@@ -232,7 +240,9 @@ double GlidePlanner::room_after(const Window& window, const Anchor& anchor, doub
 
 /// The last place of the plan that no segment to come can change.
 GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double horizon) {
-  const Glide::Part& part = glide_.parts().back();
+  const std::size_t last = glide_.last_free_part();
+  const Glide::Part& part = glide_.parts()[last];
+  horizon = std::min(horizon, glide_.free_end());
   for (std::size_t i = part.descent + 1; i-- > part.first;) {
     if (i >= plan_.size() || !is_level(plan_[i])) {
       continue;
@@ -246,7 +256,8 @@ GlidePlanner::Cut GlidePlanner::last_final(const Window& window, double horizon)
     return {i, is_hold ? std::min(phase.duration, std::max(room, 0.0) / phase.v) : 0.0};
   }
   // The last anchor is too close to the window's end: one summit back it is not.
-  return {glide_.parts().size() > 1 ? std::prev(glide_.parts().end(), 2)->first : 0, 0.0};
+  return {std::max(last > 0 ? glide_.parts()[last - 1].first : 0, glide_.first_after_passage()),
+          0.0};
 }
 
 /// The next place without acceleration of the last plan.

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "feedrate/certified/glide.hpp"
+#include "feedrate/certified/passage_glide.hpp"
 #include "feedrate/certified/plan_pieces.hpp"
 #include "feedrate/planner.hpp"
 
@@ -68,7 +68,7 @@ class GlidePlanner final : public WindowPlanner {
   Due due_;
   RampLimits least_{};    // of all zones of the window
   double fastest_ = 0.0;  // limit of all of them [mm/s]
-  Glide glide_;
+  PassageGlide glide_;
   Ascent probe_;
   ZoneAscent zone_probe_;
   std::vector<LimitZone> calmed_;  // zones of a plan, where places limit the jerk beside them

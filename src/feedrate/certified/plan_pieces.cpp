@@ -42,6 +42,7 @@ void PlanPieces::find(std::span<const Phase> plan, std::span<const double> leg_e
     levels_.clear();
     append_ramp_levels(zone, Sense::kBackward, ramp_, levels_);
     const double jerk = std::min(zone.jerk, ramp_.jerk);
+    held_above_ = zone.held_above;
     for (; leg != leg_ends.end() && *leg <= zone.end + kPlaceRounding; ++leg) {
       add_all(begin, *leg, jerk);
       begin = *leg;
@@ -116,13 +117,13 @@ void PlanPieces::add(double end, const RampLimits& ramp) {
   const PathMotion at = motion_at(there, std::min(time_at(there, end), there.duration));
   if (!pieces_.empty() && !pieces_.back().ends_leg &&
       pieces_.back().ramp.acceleration == ramp.acceleration &&
-      pieces_.back().ramp.jerk == ramp.jerk) {
+      pieces_.back().ramp.jerk == ramp.jerk && pieces_.back().held_above == held_above_) {
     pieces_.back().end = end;
     pieces_.back().v = at.v;
     pieces_.back().a = at.a;
     return;
   }
-  pieces_.push_back({end, at.v, at.a, ramp});
+  pieces_.push_back({end, at.v, at.a, ramp, held_above_});
 }
 
 void PlanPieces::commit(const Anchor& start, std::vector<Stretch>& stretches) {
@@ -147,14 +148,15 @@ void PlanPieces::commit(const Anchor& start, std::vector<Stretch>& stretches) {
     stretches.push_back({.end = start.s,
                          .ramp = pieces_.front().ramp,
                          .v = start.v,
-                         .rest = rest_after(0, {start.s, start.v, 0.0})});
+                         .rest = rest_after(0, {start.s, start.v, 0.0}),
+                         .held_above = pieces_.front().held_above});
   }
 }
 
 /// A piece as a stretch of which the plan is known up to a place.
 Stretch PlanPieces::stretch_of(std::size_t piece, double last) const {
   const Piece& here = pieces_[piece];
-  Stretch stretch{.end = here.end, .ramp = here.ramp, .v = here.v};
+  Stretch stretch{.end = here.end, .ramp = here.ramp, .v = here.v, .held_above = here.held_above};
   if (here.a < 0.0 && here.v > 0.0) {
     stretch.fall = -here.a / (here.v * here.v);
   }

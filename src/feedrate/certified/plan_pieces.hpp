@@ -36,10 +36,11 @@ class PlanPieces {
  private:
   /// A part on which the feedrate rises once and falls once at most.
   struct Piece {
-    double end;       // [mm]
-    double v;         // of the plan there [mm/s]
-    double a;         // the same [mm/s^2]
-    RampLimits ramp;  // that every place of it allows at the plan's feedrate and below
+    double end;         // [mm]
+    double v;           // of the plan there [mm/s]
+    double a;           // the same [mm/s^2]
+    RampLimits ramp;    // that every place of it allows at the plan's feedrate and below
+    double held_above;  // as that of its zone [mm/s]
     bool ends_leg = false;
   };
 
@@ -54,6 +55,7 @@ class PlanPieces {
   RampLimits ramp_{};
   std::size_t phase_ = 0;          // at the end of the last piece
   std::vector<RampLevel> levels_;  // of the zone under way
+  double held_above_ = 0.0;        // the same
 };
 
 }  // namespace twin::feedrate

@@ -83,32 +83,15 @@ void keep_more_below(const PathBounds& path, const Limits& limits, LimitZone& zo
   }
 }
 
-/// Combines what two sets of limits allow below the limit of a zone: the less of both.
-/// @param kept  gets it; its limit is not above that of `by`
-void lower_more_below(const LimitZone& by, LimitZone& kept) noexcept {
-  if (kept.most == 0.0 || by.most == 0.0) {
-    // One of them allows no more than at its limit, which is all that is left, or has no bend at all.
-    const bool is_even = kept.most == 0.0;
-    const LimitZone& other = is_even ? by : kept;
-    const double most = is_even ? std::min(kept.acceleration, kept.deceleration)
-                                : std::min(by.acceleration, by.deceleration);
-    kept.bend = other.bend;
-    kept.power = other.power;
-    kept.fade_up = other.fade_up;
-    kept.fade_down = other.fade_down;
-    kept.most = other.most == 0.0 ? 0.0 : std::min(other.most, most);
-    return;
-  }
-  kept.most = std::min(kept.most, by.most);
-  kept.bend = std::max(kept.bend, by.bend);
-  kept.power = std::min(kept.power, by.power);
-  kept.fade_up = std::max(kept.fade_up, by.fade_up);
-  kept.fade_down = std::max(kept.fade_down, by.fade_down);
+}  // namespace
+
+bool has_axis_limits(const Limits& limits) noexcept {
+  return (limits.axis_feedrate.array() > 0.0).any() ||
+         (limits.axis_acceleration.array() > 0.0).any() || (limits.axis_jerk.array() > 0.0).any();
 }
 
-/// keep_axis_limits() without the vector of jerk.
-void keep_each_axis(const PathBounds& path, const Limits& limits, BendKind bend,
-                    LimitZone& zone) noexcept {
+void keep_axis_limits(const PathBounds& path, const Limits& limits, BendKind bend,
+                      LimitZone& zone) noexcept {
   for (int i = 0; i < 3; ++i) {
     keep_feedrate(path, i, limits, bend, zone);
   }
@@ -148,34 +131,6 @@ void keep_each_axis(const PathBounds& path, const Limits& limits, BendKind bend,
     zone.jerk = std::min(zone.jerk, (limits.axis_jerk[i] - used) / path.tangent[i]);
   }
   keep_more_below(path, limits, zone);
-}
-
-}  // namespace
-
-bool has_axis_limits(const Limits& limits) noexcept {
-  return limits.jerk_of == JerkOf::kVector || (limits.axis_feedrate.array() > 0.0).any() ||
-         (limits.axis_acceleration.array() > 0.0).any() || (limits.axis_jerk.array() > 0.0).any();
-}
-
-void keep_axis_limits(const PathBounds& path, const Limits& limits, BendKind bend,
-                      LimitZone& zone) noexcept {
-  keep_each_axis(path, limits, bend, zone);
-  if (limits.jerk_of != JerkOf::kVector) {
-    return;
-  }
-  // |d3x/dt3| is at most |j| + 3 |C''| v |a| + |C'''| v^3: an axis of its own.
-  PathBounds whole;
-  whole.tangent.x() = 1.0;
-  whole.curvature.x() = path.curvature.norm();
-  whole.twist.x() = path.twist.norm();
-  Limits vector;
-  vector.acceleration = limits.acceleration;
-  vector.axis_jerk.x() = limits.jerk;
-  LimitZone kept = zone;
-  kept.most = kept.bend = kept.power = kept.fade_up = kept.fade_down = 0.0;
-  keep_each_axis(whole, vector, bend, kept);
-  lower_more_below(zone, kept);
-  zone = kept;
 }
 
 }  // namespace twin::feedrate

@@ -20,7 +20,7 @@ struct PathBounds {
 /// Whether a bend lasts, or is the rounded corner between two stretches.
 enum class BendKind : std::uint8_t { kLasting, kBrief };
 
-/// Whether any axis has a limit of its own, or the vector of jerk is bounded.
+/// Whether any axis has a limit of its own.
 bool has_axis_limits(const Limits& limits) noexcept;
 
 /// Lowers the limits of a zone so far that every motion within them keeps those of each axis.
@@ -37,9 +37,6 @@ bool has_axis_limits(const Limits& limits) noexcept;
 /// opposite signs this holds for an acceleration. So a bend that tightens leaves much for braking,
 /// and one that opens leaves much for speeding up. The feedrate leaves so much that
 /// a twentieth of sqrt(J v) can be had for a in both directions.
-///
-/// With limits.jerk_of = vector, |j| + 3 |C''| v |a| + |C'''| v^3 is kept within J_max in the same way,
-/// which bounds |d3x/dt3|.
 ///
 /// Acceleration and deceleration of the zone are those that are left at its limit. What more is left
 /// at a lower feedrate is LimitZone::most, power and the fades.

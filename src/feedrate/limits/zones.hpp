@@ -17,6 +17,8 @@ struct LimitZone {
   double acceleration = std::numeric_limits<double>::infinity();  ///< tangential [mm/s^2]
   double deceleration = std::numeric_limits<double>::infinity();  ///< the same where a < 0 [mm/s^2]
   double jerk = std::numeric_limits<double>::infinity();          ///< tangential [mm/s^3]
+  /// Above this feedrate the zone is passed without acceleration: the passage of a corner [mm/s].
+  double held_above = std::numeric_limits<double>::infinity();
   // More acceleration is allowed below the limit, see ramp_levels.hpp. most = 0: no more.
   double most = 0.0;       ///< M, near rest, either way [mm/s^2]
   double bend = 0.0;       ///< S, share of M that the bend takes, over v^2 [s^2/mm^2]
@@ -24,6 +26,11 @@ struct LimitZone {
   double fade_up = 0.0;    ///< R, share of P that the bend takes, over v^3; a > 0 [s^3/mm^3]
   double fade_down = 0.0;  ///< the same where a < 0 [s^3/mm^3]
 };
+
+/// Whether a zone is the passage of a corner.
+inline bool is_passage(const LimitZone& zone) noexcept {
+  return zone.held_above < std::numeric_limits<double>::infinity();
+}
 
 /// Whether two zones allow the same tangential acceleration and jerk.
 bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept;

@@ -86,6 +86,16 @@ void cut_at(Brake& brake, double s) noexcept {
   brake.distance = s - begin;
 }
 
+/// Constant feedrate over a distance.
+Brake make_hold(const PathMotion& from, double distance) noexcept {
+  Brake brake;
+  brake.phases[0] = {distance / from.v, from.s, from.v, 0.0, 0.0};
+  brake.phases[1] = brake.phases[2] = {0.0, from.s + distance, from.v, 0.0, 0.0};
+  brake.distance = distance;
+  brake.duration = brake.phases[0].duration;
+  return brake;
+}
+
 /// Share of a feedrate near rest that is rounding of the parts before [-]. Where the plan loses its
 /// last feedrate with J, a stop that follows it is no slower than this.
 constexpr double kTailRounding = 1e-6;
@@ -131,8 +141,11 @@ Brake make_slowdown(const PathMotion& from, const RampLimits& limits, double dis
 }
 
 StopPart make_stop_part(const PathMotion& from, const Stretch& stretch) noexcept {
-  StopPart part{make_brake(from, stretch.ramp), true};
   const double room = stretch.end - from.s;
+  if (from.v > stretch.held_above) {
+    return {make_hold(from, std::max(room, 0.0)), false};
+  }
+  StopPart part{make_brake(from, stretch.ramp), true};
   const bool may_rest = can_rest(from, stretch.ramp.jerk);
   if (may_rest && part.brake.distance <= room + kRestRounding) {
     return part;

@@ -21,6 +21,8 @@ struct Stretch {
   /// The next stretch allows no less than A and J, and is long enough to lose a deceleration A.
   bool is_harder_after = false;
   double rest = std::numeric_limits<double>::infinity();  ///< see above [mm]
+  /// Above this feedrate the stretch is passed without acceleration: the passage of a corner [mm/s].
+  double held_above = std::numeric_limits<double>::infinity();
 };
 
 /// The part of a stop that lies on one stretch.
@@ -31,6 +33,7 @@ struct StopPart {
 
 /// The lowest motion from a place of a stretch on that can be gone on with after its end.
 ///
+///   0. Where the feedrate is to be held, constant feedrate to the end of the stretch.
 ///   1. To rest with A and J (make_brake()), where the stretch is long enough.
 ///   2. Else, where the next stretch is harder and not too short, the same as far as the stretch
 ///      goes: there the next part begins with the deceleration at hand, which the next A allows.

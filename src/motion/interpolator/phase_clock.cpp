@@ -1,6 +1,7 @@
 #include "motion/interpolator/phase_clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "feedrate/tolerances.hpp"
@@ -247,7 +248,7 @@ std::optional<feedrate::Brake> PhaseClock::stop_nearby(
     const feedrate::PathMotion& from, const feedrate::Stretch& stretch,
     const feedrate::RampLimits& limits) const noexcept {
   const auto& stretches = current_->stretches;
-  if (from.a > 0.0) {
+  if (from.a > 0.0 || std::isfinite(stretch.held_above)) {
     return std::nullopt;
   }
   feedrate::RampLimits ramp = stretch.ramp;
@@ -259,7 +260,8 @@ std::optional<feedrate::Brake> PhaseClock::stop_nearby(
   for (int i = 0; i < kStretchesNearby && next != stretches.end(); ++i, ++next) {
     ramp.acceleration = std::min({ramp.acceleration, next->ramp.acceleration, limits.acceleration});
     ramp.jerk = std::min({ramp.jerk, next->ramp.jerk, limits.jerk});
-    if (next->v < from.v || -from.a > ramp.acceleration || !feedrate::can_rest(from, ramp.jerk)) {
+    if (std::isfinite(next->held_above) || next->v < from.v || -from.a > ramp.acceleration ||
+        !feedrate::can_rest(from, ramp.jerk)) {
       break;
     }
     const feedrate::Brake brake = feedrate::make_brake(from, ramp);

@@ -45,6 +45,15 @@ void PlaceMarker::mark(const feedrate::PlannedSegment& segment, const PathInstan
                        double period, SetPoint& out) noexcept {
   enter(segment);
   const feedrate::PathMotion& m = instant.motion;
+  if (const auto* passage = std::get_if<path::CornerMotion>(&segment.segment.geometry)) {
+    const path::SpaceMotion at = path::motion_in(*passage, m.s, m.v, m.a);
+    out.position = at.position;
+    out.velocity = at.velocity;
+    out.acceleration = at.acceleration;
+    out.feedrate = at.velocity.norm();
+    look_up(segment, m.s, out);
+    return;
+  }
   const path::PathPoint at = locate(segment.segment, instant, period);
   out.position = at.position;
   out.velocity = m.v * at.tangent;

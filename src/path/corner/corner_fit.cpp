@@ -1,0 +1,107 @@
+#include "path/corner/corner_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace twin::path {
+namespace {
+
+/// Ratio of the feedrates that are tried on short legs. They are the same for all corners, so that
+/// corners share passages. With smaller steps less is lost, half of a step of the feedrate on
+/// average; with twice as many, twice as many passages have to be solved.
+constexpr double kFeedrateStep = 1.05;
+constexpr double kLeastShare = 1e-3;  // of the programmed feedrate
+
+constexpr double kNoPart = 1e-9;  // of a direction along an axis
+
+/// The limits of a passage: those of the path and of every axis that moves, as vectors.
+CornerDemand demand_of(const CornerLeg& before, const CornerLeg& after, double tolerance,
+                       const Limits& limits) {
+  CornerDemand demand;
+  demand.feedrate = std::min(before.feedrate, after.feedrate);
+  demand.tolerance = tolerance;
+  demand.acceleration = limits.acceleration;
+  demand.jerk = limits.jerk;
+  const Vec3 moves = before.direction.cwiseAbs().cwiseMax(after.direction.cwiseAbs());
+  const auto lower = [](double& value, double limit) {
+    value = limit > 0.0 ? std::min(value, limit) : value;
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (moves[i] > kNoPart) {
+      lower(demand.feedrate, limits.axis_feedrate[i]);
+      lower(demand.acceleration, limits.axis_acceleration[i]);
+      lower(demand.jerk, limits.axis_jerk[i]);
+    }
+  }
+  return demand;
+}
+
+double ramp_time(double change, const CornerDemand& demand) {
+  const double build_up = demand.acceleration / demand.jerk;
+  return change <= demand.acceleration * build_up ? 2.0 * std::sqrt(change / demand.jerk)
+                                                  : change / demand.acceleration + build_up;
+}
+
+double ramp_way(double v, double w, const CornerDemand& demand) {
+  return 0.5 * (v + w) * ramp_time(std::abs(v - w), demand);
+}
+
+/// Whether a half passage of a length has room on a leg, and leaves what a plan needs beside it.
+bool has_room(const CornerLeg& leg, double way, const CornerDemand& demand) {
+  return way <= kMostOfLeg * leg.length &&
+         way + ramp_way(leg.passage, demand.feedrate, demand) <= leg.room;
+}
+
+/// The next lower feedrate that is tried.
+double next_below(double feedrate) {
+  const double place = std::log(feedrate) / std::log(kFeedrateStep);
+  return std::pow(kFeedrateStep, std::ceil(place - 1e-6) - 1.0);
+}
+
+/// Share of the jerk that the feedrate in a curve uses, as feedrate/limits/axis_limits.hpp has it. It
+/// decides between curve and passage, and is no limit.
+constexpr double kCurveShare = 0.5;
+
+/// Time that the curve loses beside a run at the feedrate of the demand, with the same limits [s].
+/// Its third derivative is turn / h^2 and its curvature turn / h at most.
+double curve_loss(double width, double turn, const CornerDemand& demand) {
+  if (!(width > 0.0)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double v =
+      std::min({demand.feedrate, std::cbrt(kCurveShare * demand.jerk * width * width / turn),
+                std::sqrt(demand.acceleration * width / turn)});
+  const double lost = demand.feedrate - v;
+  return (lost * ramp_time(lost, demand) + 2.0 * width * lost / v) / demand.feedrate;
+}
+
+}  // namespace
+
+std::optional<CornerMotion> fit_passage(const Vec3& corner, const CornerLeg& before,
+                                        const CornerLeg& after, double tolerance, double curve,
+                                        const Limits& limits, CornerTable& table) {
+  CornerDemand demand = demand_of(before, after, tolerance, limits);
+  const double turn = (after.direction - before.direction).norm();
+  const double least = kLeastShare * demand.feedrate;
+  for (; demand.feedrate > least; demand.feedrate = next_below(demand.feedrate)) {
+    const double length = demand.feedrate * half_corner_duration(demand);
+    if (length > kMostAtFeedrate * std::min(before.length, after.length) ||
+        !has_room(before, 0.0, demand) || !has_room(after, 0.0, demand)) {
+      continue;
+    }
+    if (curve_loss(curve, turn, demand) <= 0.0) {
+      return std::nullopt;
+    }
+    const auto passage = table.find(corner, before.direction, after.direction, demand);
+    if (!passage || !has_room(before, passage->way, demand) ||
+        !has_room(after, passage->way, demand)) {
+      continue;
+    }
+    const double loss = passage->duration() - 2.0 * passage->way / passage->feedrate;
+    return loss < curve_loss(curve, turn, demand) ? passage : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace twin::path

@@ -1,0 +1,85 @@
+#include "path/corner/half_corner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace twin::path {
+namespace half_corner_test {
+
+CornerDemand demand(double turn_deg, double feedrate) {
+  return {turn_deg * std::numbers::pi / 360.0, feedrate, 0.01, 2450.0, 50000.0};
+}
+
+// A reversal is one S-curve of one axis from +V to -V. From rest, with the acceleration sqrt(2 J V) that
+// it has there, half of it takes sqrt(2 V / J) and goes 2/3 of V times that, so both lose 2/3
+// sqrt(2 V / J). The tolerance lets it turn back e before the tip, which saves 2 e / V.
+TEST(HalfCorner, AReversalIsOneSCurve) {
+  for (const double feedrate : {10.0, 30.0, 50.0}) {
+    const auto half = solve_half_corner(demand(179.9, feedrate));
+    ASSERT_TRUE(half);
+    const double loss = 2.0 / 3.0 * std::sqrt(2.0 * feedrate / 50000.0);
+    EXPECT_GT(half->loss(), loss - 2.0 * 0.01 / feedrate - 1e-9) << feedrate;
+    EXPECT_LT(half->loss(), 1.02 * loss) << feedrate;
+  }
+}
+
+// Where A is reached, half a reversal from V = A^2 / J on begins with the constant acceleration A: it
+// takes V / A + A / (2 J).
+TEST(HalfCorner, AFastReversalHoldsTheAcceleration) {
+  const auto half = solve_half_corner(demand(179.9, 200.0));
+  ASSERT_TRUE(half);
+  const double a = 2450.0, j = 50000.0, v = 200.0;
+  const double time = v / a + 0.5 * a / j;
+  const double hold = time - a / j;
+  const double way = 0.5 * a * hold * hold + a * hold * (a / j) + a * a * a / (3.0 * j * j);
+  EXPECT_NEAR(half->loss(), 2.0 * (time - way / v), 0.02 * 2.0 * (time - way / v));
+  EXPECT_LE(half->acceleration, a * (1.0 + 1e-6));
+}
+
+// Losses of the free optimum within 10 um, F 50 mm/s, A 2450 mm/s^2 and J 50000 mm/s^3 as vectors: a
+// linear program on 100 steps of time, solved apart.
+TEST(HalfCorner, LosesNoMoreThanATwentiethMoreThanTheFreeOptimum) {
+  for (const auto& [turn, best] : {std::pair{30.0, 32.1e-3},
+                                   {60.0, 41.9e-3},
+                                   {90.0, 40.1e-3},
+                                   {120.0, 33.2e-3},
+                                   {150.0, 29.4e-3},
+                                   {172.0, 29.3e-3}}) {
+    const auto half = solve_half_corner(demand(turn, 50.0));
+    ASSERT_TRUE(half) << turn;
+    EXPECT_LT(half->loss(), 1.06 * best) << turn;
+    EXPECT_GT(half->loss(), 0.99 * best) << turn;
+  }
+  const auto gentle = solve_half_corner(demand(10.0, 50.0));
+  ASSERT_TRUE(gentle);
+  EXPECT_LT(gentle->loss(), 0.5e-3);
+}
+
+// Ten times the length and the time that goes with it: the same shape.
+TEST(HalfCorner, HasNoScaleOfItsOwn) {
+  const auto one = solve_half_corner(demand(75.0, 40.0));
+  const double k = 10.0;  // of lengths
+  const double t = 3.0;   // of times
+  const auto other = solve_half_corner({75.0 * std::numbers::pi / 360.0, 40.0 * k / t, 0.01 * k,
+                                        2450.0 * k / (t * t), 50000.0 * k / (t * t * t)});
+  ASSERT_TRUE(one && other);
+  EXPECT_NEAR(other->duration / one->duration, t, 1e-9);
+  EXPECT_NEAR(other->way / one->way, k, 1e-5);
+}
+
+TEST(HalfCorner, IsThereAtAnyTurnAndFeedrate) {
+  for (double feedrate = 0.5; feedrate < 250.0; feedrate *= 2.5) {
+    for (const double turn : {0.05, 1.0, 7.0, 20.0, 45.0, 80.0, 110.0, 140.0, 170.0, 179.99}) {
+      const auto half = solve_half_corner(demand(turn, feedrate));
+      ASSERT_TRUE(half) << turn << " deg, " << feedrate << " mm/s";
+      EXPECT_LE(half->deviation, 0.01 * (1.0 + 1e-6));
+      EXPECT_LE(half->loss(), 2.5 * half->duration);
+    }
+  }
+}
+
+}  // namespace half_corner_test
+}  // namespace twin::path
