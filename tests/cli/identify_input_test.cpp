@@ -43,9 +43,17 @@ class IdentifyInputTest : public CliTest {
 
   ChildResult identify(const std::string& columns, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{
-        "identify",      "r.csv",     "--out",
-        "out/m.toml",    "--columns", "t=t,x_cmd=ref,x_meas=pos" + columns,
-        "--evaluations", "0",         "--no-plots"};
+        "identify",
+        "r.csv",
+        "--out",
+        "out/m.toml",
+        "--columns",
+        "t=t,x_cmd=ref,x_meas=pos" + columns,
+        "--evaluations",
+        "0",
+        "--no-plots",
+        "--set",
+        "table.physics_step_ms=0.5"};  // what is read is judged, not the fit
     arguments.insert(arguments.end(), more.begin(), more.end());
     return twin(arguments);
   }

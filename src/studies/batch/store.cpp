@@ -68,6 +68,19 @@ bool is_whole(const fs::path& folder, const Json& job) {
   });
 }
 
+/// Whether the subprograms' files that a result names are still those that the program calls.
+bool calls_the_same(const gcode::ProgramText& program, const std::string& summary) {
+  const Json json = Json::parse(summary, nullptr, false);
+  if (!json.is_object() || !json.contains("subprograms")) {
+    return true;
+  }
+  return std::ranges::all_of(json["subprograms"], [&](const Json& called) {
+    const fs::path file = called.value("file", "");
+    const auto text = program.subprogram(file.stem().string());
+    return text && *text && called.value("sha256", "") == (*text)->sha256();
+  });
+}
+
 }  // namespace
 
 Expected<Store> Store::open(fs::path folder) {
@@ -118,7 +131,8 @@ std::optional<StoredResult> Store::find(const PreparedJob& job) const {
   const Json described = Json::parse(*text, nullptr, false);
   const auto summary = read_whole_file(folder / "summary.json");
   const auto failure = read_whole_file(folder / "failure.json");
-  if (!is_whole(folder, described) || summary.has_value() == failure.has_value()) {
+  if (!is_whole(folder, described) || summary.has_value() == failure.has_value() ||
+      !calls_the_same(job.program, summary.value_or(std::string()))) {
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     return std::nullopt;

@@ -38,8 +38,8 @@ class Store {
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
 
-  /// The result of a job; nothing if there is none, or a broken one, which is then removed: its
-  /// files are not those that job.json has the checksums of.
+  /// The result of a job; nothing if there is none, or one that is removed: a broken one, whose
+  /// files are not those that job.json has the checksums of, or one of other files of subprograms.
   std::optional<StoredResult> find(const PreparedJob& job) const;
 
   /// An empty folder for the files of a job that is being computed.

@@ -99,6 +99,20 @@ TEST_F(BatchTest, ABrokenResultIsComputedAgain) {
   EXPECT_EQ(test::content(file), whole);
 }
 
+TEST_F(BatchTest, AResultOfAnotherSubprogramIsComputedAgain) {
+  folder.put("step.ngc", "o<step> sub\nG1 X3 F1200\no<step> endsub\n");
+  std::ofstream(file()) << "G21 G90\no<step> call\nM30\n";
+  const auto count = [this] {
+    const auto result = run_batch(jobs({"limits.jerk=20000"}), store(), {});
+    return result ? result->computed : 99U;
+  };
+  EXPECT_EQ(count(), 1U);
+  EXPECT_EQ(count(), 0U);
+  folder.put("step.ngc", "o<step> sub\nG1 X4 F1200\no<step> endsub\n");
+  EXPECT_EQ(count(), 1U);
+  EXPECT_EQ(count(), 0U);
+}
+
 TEST_F(BatchTest, ARunThatFailsIsKeptWithItsReason) {
   const auto some = jobs({"limits.travel_max_mm=[1, 1, 1]", "limits.jerk=20000"});
   const auto report = run_batch(some, store(), {});

@@ -16,7 +16,7 @@ TEST(PublishedTables, AreReproducedByOneSetOfParameters) {
   Request request;
   request.published = *published();
   request.machine_file = *config::find_machine(TWIN_SOURCE_DIR "/mjcf/xy_table.toml");
-  request.repeats = 10;
+  request.repeats = 4;
   request.folder = folder.path();
   request.running.make_machine = [](const config::MachineFile& machine) {
     return std::make_unique<hal::mujoco::MujocoMachine>(machine.table);

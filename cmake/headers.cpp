@@ -1,0 +1,1 @@
+// The precompiled headers want a source; it has nothing of its own.
