@@ -92,14 +92,22 @@ bool is_tilted(const path::Arc& arc) {
 
 /// Lowers the ramps that a zone allows to those that another one allows, too.
 void lower_ramp(const LimitZone& by, LimitZone& zone) noexcept {
+  if (zone.most > 0.0 || by.most > 0.0) {
+    const auto most_of = [](const LimitZone& z) {
+      return z.most > 0.0 ? z.most : std::min(z.acceleration, z.deceleration);
+    };
+    const auto power_of = [](const LimitZone& z) {
+      return z.most > 0.0 ? z.power : std::numeric_limits<double>::infinity();
+    };
+    zone.power = std::min(power_of(zone), power_of(by));
+    zone.most = std::min(most_of(zone), most_of(by));
+    zone.bend = std::max(zone.bend, by.bend);
+    zone.fade_up = std::max(zone.fade_up, by.fade_up);
+    zone.fade_down = std::max(zone.fade_down, by.fade_down);
+  }
   zone.acceleration = std::min(zone.acceleration, by.acceleration);
   zone.deceleration = std::min(zone.deceleration, by.deceleration);
   zone.jerk = std::min(zone.jerk, by.jerk);
-  zone.most = std::min(zone.most, by.most);
-  zone.bend = std::max(zone.bend, by.bend);
-  zone.power = std::min(zone.power, by.power);
-  zone.fade_up = std::max(zone.fade_up, by.fade_up);
-  zone.fade_down = std::max(zone.fade_down, by.fade_down);
 }
 
 }  // namespace
