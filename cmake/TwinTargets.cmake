@@ -63,7 +63,7 @@ set(TWIN_COMMON_HEADERS <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> 
   <functional> <map> <memory> <mutex> <optional> <set> <span> <sstream> <string> <string_view> <thread> <variant> <vector>
   <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)
 function(twin_precompile_headers)
-  if(NOT TWIN_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  if(NOT TWIN_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU OR TWIN_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL Release)
     return()
   endif()
   foreach(use IN ITEMS library test)
@@ -132,7 +132,7 @@ function(twin_test name)
   add_executable(${name}_test ${ARG_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${ARG_DEPS} twin_test_support GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE TWIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_compile_options(${name}_test PRIVATE -Wno-array-bounds)  # g++ 12 is wrong about short strings at -O1
+  target_compile_options(${name}_test PRIVATE -Wno-array-bounds -Wno-stringop-overflow)  # g++ 12 is wrong about short strings
   twin_optimise(${name}_test $<IF:$<BOOL:${ARG_OPTIMISED}>,-O1,-O0>)
   if(ARG_PROGRAM)
     target_compile_definitions(${name}_test PRIVATE TWIN_EXECUTABLE="$<TARGET_FILE:twin_program>")
