@@ -32,6 +32,8 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "digital twin of a servo XY table and its C
  of them, plans a jerk-limited feedrate, closes the position loops and moves a
  simulated table or a real one. Every run leaves a trace, figures and plots.")
 
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")  # scripts that start LinuxCNC
+
 set(CPACK_DEBIAN_DEVEL_PACKAGE_NAME libtwin-dev)
 set(CPACK_DEBIAN_DEVEL_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVEL_PACKAGE_DEPENDS "twin (= ${PROJECT_VERSION}-1)")

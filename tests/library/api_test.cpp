@@ -59,7 +59,9 @@ TEST(Program, AFileThatIsMissingIsNamedWithTheNearestOne) {
 
 TEST(Program, AFeedrateTakesThePlaceOfItsWords) {
   const Program without = Program::from_text("G21 G90\nG1 X20\nM30\n");
-  EXPECT_EQ(failure_of([&] { plan(without, Settings()); }).line, 2);
+  Settings none;
+  none.set("program.default_feedrate=0");
+  EXPECT_EQ(failure_of([&] { plan(without, none); }).line, 2);
   const double slow = plan(without.with_feedrate(10.0), Settings()).time();
   const double fast = plan(without.with_feedrate(40.0), Settings()).time();
   EXPECT_GT(slow, 2.0);

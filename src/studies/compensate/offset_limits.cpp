@@ -23,6 +23,7 @@ AuditPeaks limit_peaks(const Limits& limits) {
   peaks.feedrate = limits.feedrate;
   peaks.tangential_acceleration = peaks.normal_acceleration = limits.acceleration;
   peaks.tangential_jerk = limits.jerk;
+  peaks.vector_jerk = some(limits.jerk_of == JerkOf::kVector ? limits.jerk : 0.0);
   for (Eigen::Index i = 0; i < 3; ++i) {
     peaks.axis[static_cast<std::size_t>(i)] = {some(limits.axis_feedrate[i]),
                                                some(limits.axis_acceleration[i]),

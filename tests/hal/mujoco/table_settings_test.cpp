@@ -34,7 +34,7 @@ void expect_section(const toml::table& file, const std::string& name,
 void expect_file(const std::string& file_name) {
   const toml::table file = toml::parse_file(test::mjcf_file(file_name));
   TableParams params;
-  expect_section(file, "table", table_settings(params), {"model", "x", "y"});
+  expect_section(file, "table", table_settings(params), {"identified", "model", "x", "y"});
   expect_section(file, "table.x", axis_settings(params.axis[kX]),
                  {"dac_bits", "drive_mode", "friction_law"});
   expect_section(file, "table.y", axis_settings(params.axis[kY]),
