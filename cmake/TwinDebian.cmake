@@ -20,7 +20,7 @@ set(CPACK_COMPONENTS_ALL program devel python)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME twin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 # MuJoCo is loaded when a table is simulated, so that no library names it; gnuplot is a program.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libmujoco2.2.2")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libmujoco2.2.2, python3:any")  # scripts start LinuxCNC
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 file(WRITE "${PROJECT_BINARY_DIR}/package/triggers" "activate-noawait ldconfig\n")
 file(WRITE "${PROJECT_BINARY_DIR}/package/shlibs"
@@ -31,8 +31,6 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "digital twin of a servo XY table and its C
  It reads NC programs of many short blocks, makes paths of continuous curvature
  of them, plans a jerk-limited feedrate, closes the position loops and moves a
  simulated table or a real one. Every run leaves a trace, figures and plots.")
-
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")  # scripts that start LinuxCNC
 
 set(CPACK_DEBIAN_DEVEL_PACKAGE_NAME libtwin-dev)
 set(CPACK_DEBIAN_DEVEL_PACKAGE_SECTION libdevel)
