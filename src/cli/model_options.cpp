@@ -24,11 +24,7 @@ void add_options(CLI::App& command, FastestArguments& fastest) {
       "Examples:\n"
       "  twin fastest dolphin.nc --tolerance-um 25\n"
       "  twin run renders/dolphin/fastest.nc");
-  command
-      .add_option("program", fastest.program,
-                  "NC program: a file, or the name of one in nc_programs")
-      ->required()
-      ->type_name("PROGRAM.nc");
+  add_program_name(command, fastest.program);
   add_tolerance(command, "--tolerance-um", "Contour error that 95 % of possible tables keep",
                 [&fastest](double tolerance) { fastest.tolerance = tolerance; })
       ->required();

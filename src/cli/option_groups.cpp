@@ -23,16 +23,18 @@ CLI::Option* add_feedrate(CLI::App& command, std::optional<double>& feedrate,
       ->type_name("F");
 }
 
-void add_program(CLI::App& command, ProgramArguments& program) {
-  const auto take = [&program](const std::vector<std::string>& given) {
-    program.name = given.front();
-  };
+void add_program_name(CLI::App& command, std::string& name) {
+  const auto take = [&name](const std::vector<std::string>& given) { name = given.front(); };
   command
       .add_option_function<std::vector<std::string>>(
           "program", take, "NC program: a file, or the name of one in nc_programs")
       ->required()
       ->expected(1)
       ->type_name("PROGRAM.nc");
+}
+
+void add_program(CLI::App& command, ProgramArguments& program) {
+  add_program_name(command, program.name);
   add_feedrate(command, program.feedrate);
 }
 

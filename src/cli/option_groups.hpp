@@ -19,6 +19,8 @@ namespace twin::cli {
 void begin_group(CLI::App& command, const std::string& name);
 CLI::Option* add_feedrate(CLI::App& command, std::optional<double>& feedrate,
                           const std::string& text = "Feedrate in place of the program's F words");
+void add_program_name(CLI::App& command, std::string& name);
+/// The program, and the feedrate in place of its own.
 void add_program(CLI::App& command, ProgramArguments& program);
 CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
                       const std::string& text);

@@ -154,37 +154,24 @@ int rtapi_app_main(void) {
   if (bad) {
     return bad;
   }
-  id = hal_init("hal_stg");
-  if (id < 0) {
-    shim_close(&shim);
-    return id;
-  }
-  it = hal_malloc(sizeof *it);
+  it = shim_begin(&shim, &id, sizeof *it, shim_close, &bad);
   if (it == NULL) {
-    bad = -ENOMEM;
-  } else {
-    memset(it, 0, sizeof *it);
-    it->plant.shim = shim;
-    bad = plant_pins(&it->plant, id, "stg", names);
-    for (i = 0; !bad && i < shim.segment->axes; ++i) {
-      bad = channel_pins(i);
-    }
-    for (i = 0; !bad && i < LINES; ++i) {
-      bad = line_pins(i);
-    }
-    bad = bad || hal_export_funct("stg.capture-position", capture_position, it, 1, 0, id) ||
-          hal_export_funct("stg.write-dacs", write_dacs, it, 1, 0, id) ||
-          hal_export_funct("stg.read-adcs", read_adcs, it, 1, 0, id) ||
-          hal_export_funct("stg.di-read", read_inputs, it, 0, 0, id) ||
-          hal_export_funct("stg.do-write", write_outputs, it, 0, 0, id);
+    return bad;
   }
-  if (bad) {
-    hal_exit(id);
-    shim_close(&shim);
-    return bad < 0 ? bad : -EINVAL;
+  it->plant.shim = shim;
+  bad = plant_pins(&it->plant, id, "stg", names);
+  for (i = 0; !bad && i < shim.segment->axes; ++i) {
+    bad = channel_pins(i);
   }
-  hal_ready(id);
-  return 0;
+  for (i = 0; !bad && i < LINES; ++i) {
+    bad = line_pins(i);
+  }
+  bad = bad || hal_export_funct("stg.capture-position", capture_position, it, 1, 0, id) ||
+        hal_export_funct("stg.write-dacs", write_dacs, it, 1, 0, id) ||
+        hal_export_funct("stg.read-adcs", read_adcs, it, 1, 0, id) ||
+        hal_export_funct("stg.di-read", read_inputs, it, 0, 0, id) ||
+        hal_export_funct("stg.do-write", write_outputs, it, 0, 0, id);
+  return shim_end(&shim, id, bad, shim_close);
 }
 
 void rtapi_app_exit(void) {

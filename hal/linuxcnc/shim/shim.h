@@ -138,6 +138,39 @@ static int shim_wait(struct twin_segment* s, int64_t until) {
   return 1;
 }
 
+/* What rtapi_app_main() begins with once the memory is there: its name in the HAL, and zeroed memory of
+ * the HAL for its pins. NULL where that fails; let_go gives the segment back. */
+static void* shim_begin(struct shim* shim, int* id, size_t size, void (*let_go)(struct shim*),
+                        int* bad) {
+  void* memory;
+  *id = hal_init(shim->component);
+  if (*id < 0) {
+    *bad = *id;
+    let_go(shim);
+    return NULL;
+  }
+  memory = hal_malloc((long)size);
+  if (memory == NULL) {
+    *bad = -ENOMEM;
+    hal_exit(*id);
+    let_go(shim);
+    return NULL;
+  }
+  memset(memory, 0, size);
+  return memory;
+}
+
+/* And what it ends with: ready, or nothing left of it. */
+static int shim_end(struct shim* shim, int id, int bad, void (*let_go)(struct shim*)) {
+  if (bad) {
+    hal_exit(id);
+    let_go(shim);
+    return bad < 0 ? bad : -EINVAL;
+  }
+  hal_ready(id);
+  return 0;
+}
+
 static double shim_finite(double value) { return isfinite(value) ? value : 0.0; }
 
 #endif

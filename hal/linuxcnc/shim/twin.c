@@ -145,36 +145,23 @@ int rtapi_app_main(void) {
   if (bad) {
     return bad;
   }
-  id = hal_init("twin");
-  if (id < 0) {
-    shim_close(&shim);
-    return id;
-  }
-  it = hal_malloc(sizeof *it);
+  it = shim_begin(&shim, &id, sizeof *it, shim_close, &bad);
   if (it == NULL) {
-    bad = -ENOMEM;
-  } else {
-    memset(it, 0, sizeof *it);
-    it->plant.shim = shim;
-    for (i = 0; i < shim.segment->axes; ++i) {
-      names[i] = shim.segment->axis[i].name;
-    }
-    bad = plant_pins(&it->plant, id, "twin", names);
-    for (i = 0; !bad && i < shim.segment->axes; ++i) {
-      bad = shim.segment->axis[i].kind == TWIN_AXIS_SERVO
-                ? servo_pins(&it->drive[i], &it->plant.axis[i], names[i])
-                : slide_pins(&it->drive[i], names[i]);
-    }
-    bad = bad || hal_export_funct("twin.read", read_drives, it, 1, 0, id) ||
-          hal_export_funct("twin.write", write_drives, it, 1, 0, id);
+    return bad;
   }
-  if (bad) {
-    hal_exit(id);
-    shim_close(&shim);
-    return bad < 0 ? bad : -EINVAL;
+  it->plant.shim = shim;
+  for (i = 0; i < shim.segment->axes; ++i) {
+    names[i] = shim.segment->axis[i].name;
   }
-  hal_ready(id);
-  return 0;
+  bad = plant_pins(&it->plant, id, "twin", names);
+  for (i = 0; !bad && i < shim.segment->axes; ++i) {
+    bad = shim.segment->axis[i].kind == TWIN_AXIS_SERVO
+              ? servo_pins(&it->drive[i], &it->plant.axis[i], names[i])
+              : slide_pins(&it->drive[i], names[i]);
+  }
+  bad = bad || hal_export_funct("twin.read", read_drives, it, 1, 0, id) ||
+        hal_export_funct("twin.write", write_drives, it, 1, 0, id);
+  return shim_end(&shim, id, bad, shim_close);
 }
 
 void rtapi_app_exit(void) {

@@ -295,27 +295,14 @@ int rtapi_app_main(void) {
     shim_close(&shim);
     return bad;
   }
-  id = hal_init("twinctl");
-  if (id < 0) {
-    drop_segment(&shim);
-    return id;
-  }
-  it = hal_malloc(sizeof *it);
+  it = shim_begin(&shim, &id, sizeof *it, drop_segment, &bad);
   if (it == NULL) {
-    bad = -ENOMEM;
-  } else {
-    memset(it, 0, sizeof *it);
-    it->shim = shim;
-    bad = all_pins(it) || hal_export_funct("twinctl.read", read_inputs, it, 1, 0, id) ||
-          hal_export_funct("twinctl.write", write_outputs, it, 1, 0, id);
+    return bad;
   }
-  if (bad) {
-    hal_exit(id);
-    drop_segment(&shim);
-    return bad < 0 ? bad : -EINVAL;
-  }
-  hal_ready(id);
-  return 0;
+  it->shim = shim;
+  bad = all_pins(it) || hal_export_funct("twinctl.read", read_inputs, it, 1, 0, id) ||
+        hal_export_funct("twinctl.write", write_outputs, it, 1, 0, id);
+  return shim_end(&shim, id, bad, drop_segment);
 }
 
 void rtapi_app_exit(void) {

@@ -41,49 +41,38 @@ std::vector<double> columns(const History& history, double duration, int width, 
 
 }  // namespace
 
-/// One of the curves' areas.
-struct Strip::Panel {
-  int top = 0;
-  int height = 0;
-  Colour colour{};
-};
-
-namespace {
-
-int panel_height(int height, bool has_error) {
-  return has_error ? (height - 3 * kStripMargin) / 2 : height - 2 * kStripMargin;
-}
-
-}  // namespace
-
 Strip::Strip(const History& history, double duration, double error_end_um, bool has_error,
              int width, int height)
     : image_(width, height, kStripPaper),
       duration_(std::max(duration, 1e-9)),
       error_end_um_(error_end_um),
       has_error_(has_error) {
-  const int room = panel_height(height, has_error);
   const auto feedrates = columns(history, duration_, plot_width(width),
                                  [](const History::Step& step) { return step.feedrate; });
   feedrate_end_ = round_up(1.1 * *std::max_element(feedrates.begin(), feedrates.end()));
-  fill({kStripMargin, room, kFeedrate}, feedrates, feedrate_end_);
+  fill(kStripMargin, kFeedrate, feedrates, feedrate_end_);
   if (has_error) {
-    fill({2 * kStripMargin + room, room, kError},
+    fill(2 * kStripMargin + panel_height(), kError,
          columns(history, duration_, plot_width(width),
                  [](const History::Step& step) { return step.error_um; }),
          error_end_um_);
   }
 }
 
-void Strip::fill(const Panel& panel, const std::vector<double>& values, double end) {
-  const int below = panel.top + panel.height;
-  image_.mix(Rectangle{kLabels, panel.top, static_cast<int>(values.size()), 1}, kRule, 1.0);
+int Strip::panel_height() const noexcept {
+  return has_error_ ? (height() - 3 * kStripMargin) / 2 : height() - 2 * kStripMargin;
+}
+
+void Strip::fill(int top, Colour colour, const std::vector<double>& values, double end) {
+  const int room = panel_height();
+  const int below = top + room;
+  image_.mix(Rectangle{kLabels, top, static_cast<int>(values.size()), 1}, kRule, 1.0);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int x = kLabels + static_cast<int>(i);
     const double part = std::clamp(values[i] / end, 0.0, 1.0);
-    const int tall = static_cast<int>(std::lround(part * panel.height));
-    image_.mix(Rectangle{x, below - tall, 1, tall}, panel.colour, 0.30);
-    image_.mix(Rectangle{x, below - tall, 1, std::min(2, std::max(tall, 1))}, panel.colour, 1.0);
+    const int tall = static_cast<int>(std::lround(part * room));
+    image_.mix(Rectangle{x, below - tall, 1, tall}, colour, 0.30);
+    image_.mix(Rectangle{x, below - tall, 1, std::min(2, std::max(tall, 1))}, colour, 1.0);
   }
   image_.mix(Rectangle{kLabels, below, static_cast<int>(values.size()), 1}, kRule, 1.0);
 }
@@ -97,11 +86,10 @@ void Strip::draw(Image& frame, const Font& font, double t) const {
             kPale);
   frame.mix(Rectangle{now - 1, top, 2, image_.height()}, kNow, 1.0);
   frame.mix(Rectangle{0, top, frame.width(), 1}, kRule, 1.0);
-  const int room = panel_height(image_.height(), has_error_);
   font.write(frame, kStripMargin, top + kStripMargin, fmt::format("{:g} mm/s", feedrate_end_),
              kFeedrate);
   if (has_error_) {
-    font.write(frame, kStripMargin, top + 2 * kStripMargin + room,
+    font.write(frame, kStripMargin, top + 2 * kStripMargin + panel_height(),
                fmt::format("{:g} um", error_end_um_), kError);
   }
 }

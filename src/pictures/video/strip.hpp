@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "pictures/video/font.hpp"
 #include "pictures/video/history.hpp"
 #include "pictures/video/image.hpp"
@@ -21,8 +23,9 @@ class Strip {
   int height() const noexcept { return image_.height(); }
 
  private:
-  struct Panel;
-  void fill(const Panel& panel, const std::vector<double>& values, double end);
+  /// Draws a curve. @param top  of its area [pixels]  @param end  value at the top
+  void fill(int top, Colour colour, const std::vector<double>& values, double end);
+  int panel_height() const noexcept;  ///< of a curve's area [pixels]
 
   Image image_;  // all of it as it looks at the end
   double duration_;

@@ -18,12 +18,16 @@ constexpr double kMost = 50.0;        // excess of one round
 
 /// Limits as peaks; huge where there is none.
 AuditPeaks limit_peaks(const Limits& limits) {
-  const auto some = [](double limit) { return limit > 0.0 ? limit : 1e300; };
+  constexpr double kNone = 1e300;
+  const auto some = [](double limit) { return limit > 0.0 ? limit : kNone; };
   AuditPeaks peaks;
+  results::for_each_peak([](double& peak) { peak = kNone; }, peaks);
   peaks.feedrate = limits.feedrate;
   peaks.tangential_acceleration = peaks.normal_acceleration = limits.acceleration;
   peaks.tangential_jerk = limits.jerk;
-  peaks.vector_jerk = some(limits.jerk_of == JerkOf::kVector ? limits.jerk : 0.0);
+  if (limits.jerk_of == JerkOf::kVector) {
+    peaks.vector_jerk = limits.jerk;
+  }
   for (Eigen::Index i = 0; i < 3; ++i) {
     peaks.axis[static_cast<std::size_t>(i)] = {some(limits.axis_feedrate[i]),
                                                some(limits.axis_acceleration[i]),

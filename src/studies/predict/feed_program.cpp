@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "core/units.hpp"
 
@@ -55,7 +56,7 @@ class FeedWriter {
   Expected<void> add_arc(const gcode::Block& block, const std::string& place, double f) {
     const Vec3 axis = block.arc.e1.cross(block.arc.e2);
     if (std::abs(std::abs(axis.z()) - 1.0) > 1e-9 ||
-        block.arc.sweep > 2.0 * 3.141592653589793 + 1e-9) {
+        block.arc.sweep > 2.0 * std::numbers::pi + 1e-9) {
       return refuse(block, "an arc about another axis than Z, or of several turns,");
     }
     const Vec3 centre = block.arc.centre - block.start;
