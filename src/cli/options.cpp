@@ -4,7 +4,6 @@
 #include <charconv>
 #include <system_error>
 
-#include "cli/commands.hpp"
 #include "cli/option_groups.hpp"
 
 namespace twin::cli {
@@ -222,7 +221,6 @@ void add_options(CLI::App& command, ConvertArguments& convert) {
       .add_option("--to", convert.dialect,
                   "g5.2: LinuxCNC; g6.2: LinuxCNC 2.10; fanuc: G06.2; bspline: SINUMERIK")
       ->required()
-      ->check(dialect_error)
       ->type_name("DIALECT");
   add_machine(command, convert.machine);
   add_reading(command, convert.machine);

@@ -13,9 +13,8 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/corrected_run.hpp"
 #include "cli/machines.hpp"
-#include "cli/predictions.hpp"
+#include "cli/run_command.hpp"
 #include "config/find_file.hpp"
 #include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "live/live_view.hpp"
@@ -229,25 +228,32 @@ Expected<Audience> invite(const RunArguments& arguments, session::Session& sessi
 
 }  // namespace
 
-Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
+bool needs_studies(const RunArguments& arguments) {
+  return arguments.correction.is_wanted || !arguments.correction.learning.empty() ||
+         arguments.tolerance.has_value();
+}
+
+Expected<void> run_program(const RunArguments& arguments, const Environment& environment,
+                           RunCompanion& companion) {
   TWIN_TRY(session::Request request,
            request_of(arguments.program, arguments.machine, arguments.overrides, arguments.results,
                       environment.stop));
   request.command = environment.command_line;
   request.make_machine = machine_of(arguments.hal, arguments.correction.plant);
-  TWIN_TRY(CorrectedRun corrected,
-           CorrectedRun::prepare(arguments.correction, request, arguments.results.verbosity,
-                                 environment.stop));
-  TWIN_CHECK(
-      predict_errors(arguments.tolerance, arguments.results.verbosity, environment.stop, request));
+  TWIN_CHECK(companion.prepare(request));
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const Audience audience, invite(arguments, session));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
-  TWIN_CHECK(corrected.learn_from(result, environment.stop));
+  TWIN_CHECK(companion.finish(result));
   TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, arguments.video);
+}
+
+Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
+  RunCompanion none;
+  return run_program(arguments, environment, none);
 }
 
 Expected<void> execute(const PlanArguments& arguments, const Environment& environment) {
