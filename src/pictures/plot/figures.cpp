@@ -1,9 +1,10 @@
 #include "pictures/plot/figures.hpp"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iterator>
 
 #include "core/atomic_file.hpp"
+#include "core/json.hpp"
 #include "pictures/plot/figure_data.hpp"
 #include "pictures/plot/gnuplot.hpp"
 #include "pictures/plot/scripts.hpp"
@@ -35,7 +36,8 @@ struct RunOrigin {
 /// Reads it from a summary; a file that is missing or is none says nothing.
 RunOrigin read_run_origin(const fs::path& summary) {
   std::ifstream in(summary);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const Json json =
+      parse_json(std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()));
   RunOrigin origin;
   if (!json.is_object()) {
     return origin;
@@ -48,8 +50,8 @@ RunOrigin read_run_origin(const fs::path& summary) {
     origin.period = period->get<double>();
   }
   const auto limit = [&json](const char* key) {
-    const nlohmann::json none;
-    const auto value = json.value(nlohmann::json::json_pointer("/settings/limits"), none);
+    const Json none;
+    const auto value = json.value(Json::json_pointer("/settings/limits"), none);
     return value.is_object() && value.contains(key) && value[key].is_number()
                ? value[key].get<double>()
                : 0.0;
