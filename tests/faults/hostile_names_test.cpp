@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "tests/faults/whole_files.hpp"
 #include "tests/support/cli_fixture.hpp"
 
@@ -29,8 +29,7 @@ TEST_F(HostileName, IsANameAndNothingElseInEveryOutput) {
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_TRUE(exists("out/" + name + "/plots/contour.png"));
     EXPECT_TRUE(exists("out/" + name + "/video.mp4"));
-    const auto summary =
-        nlohmann::json::parse(test::content(folder / ("out/" + name + "/summary.json")));
+    const auto summary = parse_json(test::content(folder / ("out/" + name + "/summary.json")));
     if (text == printable) {
       EXPECT_EQ(summary["program"], name);
     }
