@@ -56,4 +56,45 @@ struct Rule<5> {
   }};
 };
 
+/// Values in the opposite order.
+template <std::size_t n>
+constexpr Values<n> reversed(const Values<n>& values) noexcept {
+  Values<n> result{};
+  for (std::size_t i = 0; i < n; ++i) {
+    result[i] = values[n - 1 - i];
+  }
+  return result;
+}
+
+/// Weights of n values at the points of the rule for the integral from -1 to x of the polynomial
+/// of degree n - 1 through them: the integrals of the Lagrange polynomials.
+template <std::size_t n>
+constexpr Values<n> partial_weights(double x) noexcept {
+  Values<n> weights{};
+  for (std::size_t i = 0; i < n; ++i) {
+    Values<n> c{1.0};  // coefficients of product_{k != i} (t - x_k) / (x_i - x_k)
+    std::size_t degree = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k == i) {
+        continue;
+      }
+      const double scale = 1.0 / (Rule<n>::kNodes[i] - Rule<n>::kNodes[k]);
+      ++degree;
+      for (std::size_t m = degree + 1; m-- > 0;) {
+        const double lower = m > 0 ? c[m - 1] : 0.0;
+        const double same = m < degree ? c[m] : 0.0;
+        c[m] = scale * (lower - Rule<n>::kNodes[k] * same);
+      }
+    }
+    double upper = x;
+    double lower = -1.0;
+    for (std::size_t m = 0; m < n; ++m) {
+      weights[i] += c[m] / static_cast<double>(m + 1) * (upper - lower);
+      upper *= x;
+      lower *= -1.0;
+    }
+  }
+  return weights;
+}
+
 }  // namespace twin::geometry::gauss

@@ -62,7 +62,9 @@ FittedCurve part_of(const FittedCurve& curve, double from, double to) {
   return part;
 }
 
-void measure(FittedCurve& fitted) { fitted.arc_length.build(fitted.curve, &fitted.curvature); }
+void measure(FittedCurve& fitted, geometry::Sampling sampling) {
+  fitted.arc_length.build(fitted.curve, &fitted.curvature, sampling);
+}
 
 Segment make_curve_segment(FittedCurve&& fitted) {
   Segment segment;

@@ -82,7 +82,7 @@ Arc make_arc(const geometry::Arc& geometry) noexcept;
 Arc part_of(const Arc& arc, double from, double to) noexcept;
 
 /// Computes arc_length and curvature of a curve that was just fitted.
-void measure(FittedCurve& fitted);
+void measure(FittedCurve& fitted, geometry::Sampling sampling = geometry::Sampling::kEven);
 
 /// The part of a measured curve between the arc lengths `from` and `to`, measured itself [mm].
 FittedCurve part_of(const FittedCurve& curve, double from, double to);

@@ -23,7 +23,8 @@ Expected<double> time_bound(const gcode::ProgramText& program, const config::Mac
     return wish().has_value();
   }));
   TWIN_CHECK(wish());
-  return bound.finish();
+  bound.finish();
+  return bound.with_jerk();
 }
 
 }  // namespace twin::runtime

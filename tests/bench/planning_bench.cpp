@@ -40,8 +40,8 @@ void read_only(benchmark::State& state) {
 }
 
 void read_to_planned(benchmark::State& state, double block_length, Planner planner,
-                     CurveKind curves) {
-  const bench::WavyFile file(state.range(0), block_length);
+                     CurveKind curves, bench::PathShape shape = bench::PathShape::kWavy) {
+  const bench::WavyFile file(state.range(0), block_length, shape);
   config::MachineFile machine;
   machine.path.planner = planner;
   machine.path.curves = curves;
@@ -105,6 +105,11 @@ BENCHMARK_CAPTURE(read_to_planned, paper_0_26_mm, 0.26, Planner::kPaper, CurveKi
     ->Range(kFewest, kMost)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_to_planned, certified_0_26_mm, 0.26, Planner::kCertified, CurveKind::kNurbs)
+    ->RangeMultiplier(10)
+    ->Range(kFewest, kMost)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, certified_zigzag, 0.1, Planner::kCertified, CurveKind::kNurbs,
+                  bench::PathShape::kZigzag)
     ->RangeMultiplier(10)
     ->Range(kFewest, kMost)
     ->Unit(benchmark::kMillisecond);

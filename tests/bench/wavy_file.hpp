@@ -5,13 +5,19 @@
 
 namespace twin::bench {
 
-/// A temporary NC program: a wavy path of short blocks, 4 decimals as CAM writes them.
+/// What a path of short blocks looks like.
+enum class PathShape : std::uint8_t {
+  kWavy,    ///< a wave, smooth but for the 4 decimals
+  kZigzag,  ///< each block at 90 degrees to the one before
+};
+
+/// A temporary NC program: a path of short blocks, 4 decimals as CAM writes them.
 ///
 /// The file is gone with the object.
 class WavyFile {
  public:
   /// @param block_length  [mm]
-  WavyFile(std::int64_t blocks, double block_length);
+  WavyFile(std::int64_t blocks, double block_length, PathShape shape = PathShape::kWavy);
   WavyFile(const WavyFile&) = delete;
   WavyFile& operator=(const WavyFile&) = delete;
   ~WavyFile();

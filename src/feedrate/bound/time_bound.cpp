@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "feedrate/bound/reach.hpp"
+#include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
@@ -31,12 +32,17 @@ path::Segment bare(const path::Segment& segment) {
 
 TimeBound::TimeBound(const Limits& limits, const PlanningModel& model, const PathSettings& path,
                      double period, Profile profile)
-    : limits_(limits), rules_(limits, model, path, period), profile_(std::move(profile)) {}
+    : limits_(limits), rules_(limits, model, path, period), profile_(std::move(profile)) {
+  if (!has_axis_limits(limits) && limits.jerk_of == JerkOf::kPath) {
+    jerk_bound_.emplace(RampLimits{limits.acceleration, limits.jerk});
+  }
+}
 
 void TimeBound::add(const feedrate::PlannedSegment& planned) {
   const path::Segment& segment = planned.segment;
   if (segment.length <= 0.0) {
     time_ += segment.dwell;
+    dwell_ += segment.dwell;
     if (!open_.empty()) {
       open_.back().end_cap = 0.0;
     }
@@ -61,6 +67,9 @@ void TimeBound::add(const feedrate::PlannedSegment& planned) {
 double TimeBound::finish() {
   if (!open_.empty()) {
     release(Tail::kClosed);
+  }
+  if (jerk_bound_) {
+    with_jerk_ = dwell_ + jerk_bound_->finish();
   }
   return time_;
 }
@@ -118,21 +127,40 @@ std::size_t TimeBound::final_segments(Pass& pass) const {
   return 0;
 }
 
-void TimeBound::report(std::size_t segment, const Pass& pass) {
+/// Calls take(s, v, time since the last place) for each place of the first segments.
+template <class Take>
+void TimeBound::for_places(std::size_t segment, const Pass& pass, const Take& take) const {
   double s = s_;
   for (std::size_t i = 0; i < pass.first[segment]; ++i) {
     const Cell& cell = pass.cells[i];
     const double q0 = pass.node[i];
     const double q1 = pass.node[i + 1];
-    profile_(s, std::sqrt(q0));
+    const double time = cell_time(cell, q0, q1);
+    take(s, std::sqrt(q0), 0.0);
+    double rest = time;
     if (!is_linear(cell, q0, q1)) {
       const double peak = cell_peak(cell, q0, q1);
-      profile_(s + (peak - q0) / (2.0 * cell.acceleration), std::sqrt(peak));
-      profile_(s + cell.length - (peak - q1) / (2.0 * cell.acceleration), std::sqrt(peak));
+      const double rise = (std::sqrt(peak) - std::sqrt(q0)) / cell.acceleration;
+      const double fall = (std::sqrt(peak) - std::sqrt(q1)) / cell.acceleration;
+      take(s + (peak - q0) / (2.0 * cell.acceleration), std::sqrt(peak), rise);
+      take(s + cell.length - (peak - q1) / (2.0 * cell.acceleration), std::sqrt(peak),
+           time - rise - fall);
+      rest = fall;
     }
     s += cell.length;
-    profile_(s, std::sqrt(q1));
+    take(s, std::sqrt(q1), rest);
   }
+}
+
+void TimeBound::report(std::size_t segment, const Pass& pass) {
+  for_places(segment, pass, [&](double s, double v, double time) {
+    if (profile_) {
+      profile_(s, v);
+    }
+    if (jerk_bound_) {
+      jerk_bound_->add(s, v, time);
+    }
+  });
 }
 
 void TimeBound::release(Tail tail) {
@@ -164,7 +192,7 @@ void TimeBound::release(Tail tail) {
       break;
     }
   }
-  if (profile_) {
+  if (profile_ || jerk_bound_) {
     report(until, pass);
   }
   time_ += time - fall;

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/limits.hpp"
 #include "core/path_settings.hpp"
 #include "feedrate/bound/grid.hpp"
+#include "feedrate/bound/jerk_bound.hpp"
 #include "feedrate/limits/feedrate_rules.hpp"
 #include "feedrate/planned_segment.hpp"
 #include "feedrate/planner.hpp"
@@ -15,7 +18,8 @@
 namespace twin::feedrate {
 
 /// Lower bound of the time that a planned path takes: the time-optimal traversal of the same path
-/// with the same limits of feedrate and acceleration, but with no limit of jerk.
+/// with the same limits of feedrate and acceleration, but with no limit of jerk. Where the jerk along
+/// the path is limited and no axis has a limit of its own, JerkBound makes more of it.
 ///
 ///   q  |        cap ____            ____
 ///      |  _________/    \    /\    /    .  backward: the largest q from which the rest can be kept
@@ -62,8 +66,12 @@ class TimeBound {
   void add(const feedrate::PlannedSegment& planned);
 
   /// Ends the path, at rest.
-  /// @returns lower bound of the time of all segments [s]
+  /// @returns lower bound of the time of all segments, without a limit of jerk [s]
   double finish();
+
+  /// Lower bound of the time of all segments with the limit of jerk, once finish() has returned; the
+  /// same as without one where it is not known [s].
+  double with_jerk() const noexcept { return std::max(time_, with_jerk_); }
 
  private:
   /// A segment whose time may still depend on the segments that follow.
@@ -86,6 +94,8 @@ class TimeBound {
   static void run_backward(double end, Pass& pass);
   double time_until(std::size_t segment, Pass& pass) const;
   std::size_t final_segments(Pass& pass) const;
+  template <class Take>
+  void for_places(std::size_t segment, const Pass& pass, const Take& take) const;
   void report(std::size_t segment, const Pass& pass);
 
   Limits limits_;
@@ -95,7 +105,10 @@ class TimeBound {
   std::size_t next_look_ = kWindow;  // number of open segments at which release() is tried again
   double start_ = 0.0;               // q at the start of the first open segment
   double time_ = 0.0;                // time of the segments released so far [s]
-  double s_ = 0.0;                   // length of the segments released so far [mm]
+  double dwell_ = 0.0;               // time of the dwells among it [s]
+  std::optional<JerkBound> jerk_bound_;
+  double with_jerk_ = 0.0;
+  double s_ = 0.0;  // length of the segments released so far [mm]
 };
 
 }  // namespace twin::feedrate

@@ -212,7 +212,7 @@ void Ascent::lower(double x, double limit) {
 
 Rise::Exit Ascent::exit_at(double v) const noexcept {
   const auto above = std::lower_bound(tops_.begin(), tops_.end(), v);
-  Exit exit{phases_.size(), 0.0, at_, 0.0};
+  Exit exit{.phase = phases_.size(), .time = 0.0, .at = at_, .distance = 0.0};
   if (above != tops_.begin()) {
     exit.phase = static_cast<std::size_t>(above - tops_.begin()) - 1;
     const Phase& phase = phases_[exit.phase];
@@ -222,10 +222,12 @@ Rise::Exit Ascent::exit_at(double v) const noexcept {
         exit.time < phase.duration || above != tops_.end() ? motion_at(phase, exit.time) : at_;
   } else if (!phases_.empty()) {
     const Phase& phase = phases_.front();
-    exit = {0, 0.0, {phase.s, phase.v, phase.a}, 0.0};
+    exit = {.phase = 0, .time = 0.0, .at = {phase.s, phase.v, phase.a}, .distance = 0.0};
   }
   const double t = exit.at.a / jerk_;
   exit.distance = exit.at.s + t * (exit.at.v + t * exit.at.a / 3.0);
+  // Along a phase dp/dt = a (1 + j / J), and the distance grows by (v + a^2 / J) (1 + j / J).
+  exit.slope = exit.at.a > 0.0 ? exit.at.v / exit.at.a + t : 0.0;
   return exit;
 }
 

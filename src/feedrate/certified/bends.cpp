@@ -39,13 +39,18 @@ double parabola_peak(double a, double middle, double b) {
   return std::max(largest, middle - slope * slope / (4.0 * bend));
 }
 
+/// Turn of the tangent between two samples, between which the curvature is nearly a line [rad].
+double turn_of(const geometry::CurvatureSample& a, const geometry::CurvatureSample& b) {
+  return 0.5 * (a.curvature + b.curvature) * (b.s - a.s);
+}
+
 }  // namespace
 
 void Bends::find(const path::FittedCurve& curve) {
   find_intervals(curve);
   peaks_.clear();
-  if (!curve.is_programmed) {
-    find_brief_bends();
+  if (!curve.is_programmed && !curve.curvature.empty()) {
+    find_brief_bends(curve.curvature.front().curvature, curve.curvature.back().curvature);
   }
 }
 
@@ -57,8 +62,8 @@ void Bends::find_intervals(const path::FittedCurve& curve) {
     if (curve.is_programmed && b.s > a.s) {
       divide(curve, a, b, 0);
     } else {
-      intervals_.push_back(
-          {a.s, b.s, a.u, b.u, kBetweenSamples * std::max(a.curvature, b.curvature)});
+      intervals_.push_back({a.s, b.s, a.u, b.u,
+                            kBetweenSamples * std::max(a.curvature, b.curvature), turn_of(a, b)});
     }
   }
 }
@@ -79,10 +84,13 @@ void Bends::divide(const path::FittedCurve& curve, const geometry::CurvatureSamp
     divide(curve, middle, b, depth + 1);
     return;
   }
-  intervals_.push_back({a.s, b.s, a.u, b.u, std::max(peak, kBetweenSamples * ends)});
+  intervals_.push_back({a.s, b.s, a.u, b.u, std::max(peak, kBetweenSamples * ends), turn_of(a, b)});
 }
 
-void Bends::find_brief_bends() {
+/// Finds out which bends are brief.
+/// @param first_curvature  at the begin of the curve [1/mm]
+/// @param last_curvature   at its end
+void Bends::find_brief_bends(double first_curvature, double last_curvature) {
   std::size_t begin = 0;
   while (begin < intervals_.size()) {
     double peak = intervals_[begin].curvature;
@@ -98,10 +106,10 @@ void Bends::find_brief_bends() {
         break;
       }
       peak = std::max(peak, k);
-      turn += k * (intervals_[end].end - intervals_[end].begin);
+      turn += intervals_[end].turn;
     }
-    const bool is_cut = (begin == 0 && intervals_[begin].curvature > kValley * peak) ||
-                        (end == intervals_.size() && intervals_.back().curvature > kValley * peak);
+    const bool is_cut = (begin == 0 && first_curvature > kValley * peak) ||
+                        (end == intervals_.size() && last_curvature > kValley * peak);
     const bool is_brief = !is_cut && turn < 0.9 * std::numbers::pi &&
                           1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
     for (std::size_t i = begin; i < end; ++i) {

@@ -14,6 +14,7 @@ struct BendInterval {
   double u0;                ///< parameter at its begin
   double u1;                ///< parameter at its end
   double curvature;         ///< nowhere on the stretch is there more [1/mm]
+  double turn = 0.0;        ///< of the tangent, from the curvature at both ends [rad]
   bool is_brief = false;    ///< part of a brief bend
   bool is_winding = false;  ///< part of a bend that turns by more than a corner does
 };
@@ -56,7 +57,7 @@ class Bends {
   void find_intervals(const path::FittedCurve& curve);
   void divide(const path::FittedCurve& curve, const geometry::CurvatureSample& a,
               const geometry::CurvatureSample& b, int depth);
-  void find_brief_bends();
+  void find_brief_bends(double first_curvature, double last_curvature);
   void add_peak(std::size_t first, std::size_t last, double turn);
 
   double corner_error_;

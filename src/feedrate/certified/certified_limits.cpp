@@ -27,6 +27,11 @@ constexpr double kTwistMargin = 1.05;
 /// would begin to be felt at corners of 10 um.
 constexpr double kBriefZone = 0.2;
 
+/// Ratio of limits that share a zone, where axes have no limits of their own. It trades time for work:
+/// where the feedrate follows the limits, half of the difference is lost on average, and with twice
+/// the difference about half as many zones are planned.
+constexpr double kSameLimit = 1.001;
+
 /// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
 /// changes along it. With twice as many, half as much is lost by taking the worst of each part.
 constexpr int kArcParts = 48;
@@ -261,7 +266,9 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
                                    std::vector<LimitZone>& zones) {
   bends_.find(curve);
   const bool has_dips = has_vector_limits_ || (limits_.axis_jerk.array() > 0.0).any();
-  ZoneRow row(zones, has_axis_limits_ || has_vector_limits_ ? kBriefZone * period_ : 0.0);
+  const bool has_ramps = has_axis_limits_ || has_vector_limits_;
+  ZoneRow row(zones, has_ramps ? ZoneMerging{.brief = kBriefZone * period_}
+                               : ZoneMerging{.same = kSameLimit});
   auto peak = bends_.peaks().begin();
   for (std::size_t i = 0; i < bends_.intervals().size(); ++i) {
     const BendInterval& interval = bends_.intervals()[i];

@@ -198,7 +198,7 @@ void Glide::climb(const Leg& leg) {
     summit = *joined;
   } else {
     summit.v = std::min(leg.a.v, leg.down->top());
-    summit.up = {0, 0.0, {0.0, summit.v, 0.0}, 0.0};
+    summit.up = {.phase = 0, .time = 0.0, .at = {0.0, summit.v, 0.0}, .distance = 0.0};
     summit.down = leg.down->exit_at(summit.v);
     summit.length = summit.down.distance;
   }

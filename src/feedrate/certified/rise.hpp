@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "feedrate/profile/phases.hpp"
@@ -25,6 +26,8 @@ class Rise {
     double time;        ///< time into that phase [s]
     PathMotion at;      ///< motion where -J begins
     double distance;    ///< distance at which the feedrate is reached, with a = 0 [mm]
+    /// Derivative of that distance by the feedrate; NaN where it is not known [s].
+    double slope = std::numeric_limits<double>::quiet_NaN();
   };
 
   virtual ~Rise() = default;

@@ -7,6 +7,48 @@
 #include "feedrate/tolerances.hpp"
 
 namespace twin::feedrate {
+namespace {
+
+/// Newton steps for a first guess of the feedrate, which cost next to nothing.
+constexpr int kGuesses = 6;
+
+/// Root of -at_zero + c (b x + x^3) in [0, x_high], where it has the value at_high: the distance of a
+/// ramp from and to the feedrate b / 2. Three digits are enough.
+double guess(double b, double at_zero, double x_high, double at_high) noexcept {
+  const double c = (at_high + at_zero) / (x_high * (b + x_high * x_high));
+  double x = x_high;
+  for (int i = 0; i < kGuesses; ++i) {
+    x -= (c * x * (b + x * x) - at_zero) / (c * (b + 3.0 * x * x));
+  }
+  return x;
+}
+
+/// Feedrate between two others at which `missing`, the distance that is missing, is just below 0.
+/// Near an anchor of the feedrate v_least the distance is that of a ramp, (v_least + v) x / sqrt(J)
+/// with x = sqrt(v - v_least), which has no slope at v_least but is smooth in x.
+/// @param missing  callable as missing(v) -> value and slope; of the slope NaN where it is not known
+template <class Function>
+double highest_with_room(const Function& missing, double v_least, double at_least, double high,
+                         double at_high) noexcept {
+  if (!std::isnan(missing(high).slope)) {
+    constexpr double kHalf = 0.05 * kDistanceRounding;
+    const auto at = [&](double x) {
+      const ValueAndSlope f = missing(v_least + x * x);
+      return ValueAndSlope{f.value + kHalf, 2.0 * x * f.slope};
+    };
+    const double x_high = std::sqrt(high - v_least);
+    const double first = guess(2.0 * v_least, -at_least, x_high, at_high);
+    const NewtonRoot root =
+        bracketed_newton(at, 0.0, x_high, first, {.value = kHalf, .iterations = 100});
+    const double x = root.is_met ? root.x : root.low;
+    return v_least + x * x;
+  }
+  return root_from_below([&](double v) { return missing(v).value; }, v_least, at_least, high,
+                         at_high, {0.1 * kDistanceRounding, 1e-14, 100, 3});
+}
+
+}  // namespace
+
 std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap) {
   Summit summit;
   const auto room_at = [&](double v) {
@@ -45,9 +87,11 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
   if (room_low < 0.0) {
     return room_low >= -kDistanceRounding ? std::optional(summit) : std::nullopt;
   }
-  const auto missing_at = [&](double v) { return -room_at(v); };
-  summit.v = root_from_below(missing_at, v_least, -room_low, high, -room_high,
-                             {0.1 * kDistanceRounding, 1e-14, 100, 3});
+  const auto missing_at = [&](double v) {
+    const double room = room_at(v);
+    return ValueAndSlope{-room, summit.up.slope + summit.down.slope};
+  };
+  summit.v = highest_with_room(missing_at, v_least, -room_low, high, -room_high);
   return room_at(summit.v) >= 0.0 ? std::optional(summit) : std::nullopt;
 }
 

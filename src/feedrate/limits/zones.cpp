@@ -5,10 +5,6 @@
 namespace twin::feedrate {
 namespace {
 
-/// Ratio of limits that share a zone. It trades time for work: up to 1 % of the feedrate is lost in
-/// a zone, and with twice the difference about half as many zones are planned.
-constexpr double kSameLimit = 1.01;
-
 /// Ratio of limits that share a zone which is passed in next to no time. Twice the difference makes
 /// half as many such zones, and corners of a micrometre cost a per cent of their time more.
 constexpr double kSameBriefLimit = 1.3;
@@ -123,8 +119,9 @@ void ZoneRow::append(const LimitZone& zone) {
     LimitZone& before = zones_.back();
     const double low = std::min(before.limit, zone.limit);
     const double high = std::max(highest_, zone.limit);
-    const bool is_same = high <= kSameLimit * low && has_same_ramp(before, zone);
-    const bool is_brief = high <= kSameBriefLimit * low && zone.end - before.begin <= brief_ * low;
+    const bool is_same = high <= merging_.same * low && has_same_ramp(before, zone);
+    const bool is_brief =
+        high <= kSameBriefLimit * low && zone.end - before.begin <= merging_.brief * low;
     if (is_same || is_brief) {
       highest_ = high;
       before.limit = low;

@@ -35,16 +35,21 @@ inline bool is_passage(const LimitZone& zone) noexcept {
 /// Whether two zones allow the same tangential acceleration and jerk.
 bool has_same_ramp(const LimitZone& a, const LimitZone& b) noexcept;
 
-/// Appends the zones of one segment, one after the other. Neighbours whose limits differ by less
-/// than 1 %, and which allow the same ramps, become one zone, which has the lowest limit of all of
-/// them. So do neighbours that are passed in next to no time, where their limits differ by less than
-/// 30 %; of the ramps that they allow the least counts.
+/// Which neighbours become one zone, which has the lowest limit of all of them.
+struct ZoneMerging {
+  /// Neighbours that allow the same ramps: where their limits differ by no more than this ratio [-].
+  double same = 1.01;
+  /// Neighbours that are passed together in no more than this time, where their limits differ by
+  /// less than 30 %. Of the ramps that they allow the least counts [s].
+  double brief = 0.0;
+};
+
+/// Appends the zones of one segment, one after the other, and merges neighbours.
 class ZoneRow {
  public:
   /// @param zones  the list to append to; its present zones are not changed
-  /// @param brief  time in which zones are passed together that is next to none [s]
-  explicit ZoneRow(std::vector<LimitZone>& zones, double brief = 0.0)
-      : zones_(zones), first_(zones.size()), brief_(brief) {}
+  explicit ZoneRow(std::vector<LimitZone>& zones, const ZoneMerging& merging = {})
+      : zones_(zones), first_(zones.size()), merging_(merging) {}
 
   /// Appends a zone that begins where the last one ends, or merges it with the last one.
   void append(const LimitZone& zone);
@@ -54,7 +59,7 @@ class ZoneRow {
  private:
   std::vector<LimitZone>& zones_;
   std::size_t first_;
-  double brief_;
+  ZoneMerging merging_;
   double highest_ = 0.0;  // highest limit among the zones that were merged into the last one [mm/s]
 };
 

@@ -23,6 +23,13 @@ constexpr int kMoreHalvings = 2000;
 /// its error would be 3e-9 of an interval, at R = 16 below the rounding.
 constexpr double kRadius = 8.0;
 
+/// R and the largest length of an interval with sparse samples [mm]; see the class.
+constexpr double kSparseRadius = 4.0;
+constexpr double kSparseLength = 0.03;
+
+/// Curvature of an interval that is straight [1/mm]: one sample is enough.
+constexpr double kStraight = 1e-9;
+
 using FivePoints = gauss::Rule<5>;
 using Quartic = std::array<double, 5>;
 
@@ -48,31 +55,76 @@ struct Tangent {
   }
 };
 
-/// Whether one application of the quadrature to sqrt(q) is good enough, Eqs. (1) and (2).
-bool is_smooth(const Quartic& q, double half) noexcept {
+/// Whether q varies little enough over an interval, Eq. (1) with a radius R.
+bool is_smooth(const Quartic& q, double radius) noexcept {
   double sum = 0.0;
   for (std::size_t k = 4; k >= 1; --k) {
-    sum = (sum + std::abs(q[k])) * kRadius;
+    sum = (sum + std::abs(q[k])) * radius;
   }
-  const double largest = q[0] + std::abs(q[1]) + std::abs(q[2]) + std::abs(q[3]) + q[4];
-  return sum <= 0.5 * q[0] || 2.0 * half * std::sqrt(largest) < kLengthTolerance;
+  return sum <= 0.5 * q[0];
 }
 
-/// Curvature at x = -1, -1/2, 0, 1/2: C' x C'' = (d0 x d1 + 2 x (d0 x d2) + x^2 (d1 x d2)) / h.
+/// Whether an interval is shorter than a length [mm], however fast the curve is on it.
+bool is_shorter(const Quartic& q, double half, double length) noexcept {
+  const double largest = q[0] + std::abs(q[1]) + std::abs(q[2]) + std::abs(q[3]) + q[4];
+  return 4.0 * half * half * largest < length * length;
+}
+
+/// Curvature across an interval: C' x C'' = (d0 x d1 + 2 x (d0 x d2) + x^2 (d1 x d2)) / h.
+class Bending {
+ public:
+  Bending(const Tangent& c, const Quartic& q, double half) noexcept
+      : q_(q),
+        a_(cross(c.d0, c.d1) / half),
+        b_(cross(c.d0, c.d2) * (2.0 / half)),
+        d_(cross(c.d1, c.d2) / half) {}
+
+  double at(double x) const noexcept {
+    const double square = value(q_, x);
+    const double cubed = square * root(square);
+    const double product = (a_ + x * (b_ + x * d_)).norm();
+    return cubed > 0.0 ? product / cubed : 0.0;
+  }
+
+ private:
+  const Quartic& q_;
+  Vec3 a_, b_, d_;
+};
+
+/// Curvature at x = -1, -1/2, 0, 1/2.
 void sample_cubic(const Tangent& c, const Quartic& q, double begin, double half,
                   const std::array<double, 4>& s, std::vector<CurvatureSample>& samples) {
-  const Vec3 a = cross(c.d0, c.d1) / half;
-  const Vec3 b = cross(c.d0, c.d2) * (2.0 / half);
-  const Vec3 d = cross(c.d1, c.d2) / half;
+  const Bending bending(c, q, half);
   for (int k = 0; k < 4; ++k) {
-    const double x = 0.5 * k - 1.0;
-    const double square = value(q, x);
-    const double cubed = square * root(square);
-    const double product = (a + x * (b + x * d)).norm();
-    samples.push_back({begin + 0.5 * k * half, s[static_cast<std::size_t>(k)],
-                       cubed > 0.0 ? product / cubed : 0.0});
+    samples.push_back(
+        {begin + 0.5 * k * half, s[static_cast<std::size_t>(k)], bending.at(0.5 * k - 1.0)});
   }
 }
+
+/// Whether nowhere on an interval the curvature is above kStraight.
+bool is_straight(const Tangent& c, const Quartic& q, double half) noexcept {
+  const double product =
+      cross(c.d0, c.d1).norm() + 2.0 * cross(c.d0, c.d2).norm() + cross(c.d1, c.d2).norm();
+  const double least = q[0] - std::abs(q[1]) - std::abs(q[2]) - std::abs(q[3]) - q[4];
+  return least > 0.0 && product <= kStraight * half * least * std::sqrt(least);
+}
+
+/// Whether the parabola through three values at equal steps rises or falls from end to end.
+bool is_monotone(double a, double middle, double b) noexcept {
+  const double first = middle - a;
+  const double second = b - middle;
+  return first * second > 0.0 && 3.0 * std::abs(first) >= std::abs(second) &&
+         3.0 * std::abs(second) >= std::abs(first);
+}
+
+/// Where an interval whose curvature is largest at its begin is sampled, from x = -1 on, and the
+/// weights of the five values of the speed for the arc length up to there. Each step is about as
+/// long as the distance from the begin.
+constexpr std::size_t kGraded = 3;
+constexpr gauss::Values<kGraded> kGradedPlaces = {-0.75, -0.5, 0.0};
+constexpr std::array<gauss::Values<5>, kGraded> kGradedWeights = {
+    gauss::partial_weights<5>(kGradedPlaces[0]), gauss::partial_weights<5>(kGradedPlaces[1]),
+    gauss::partial_weights<5>(kGradedPlaces[2])};
 
 }  // namespace
 
@@ -81,8 +133,11 @@ struct ArcLength::Builder {
   ArcLength& table;
   const Curve& curve;
   std::vector<CurvatureSample>* samples;
+  Sampling sampling;
   double tolerance = kLengthTolerance;  // of a curve that is no cubic polynomial [mm]
   int halvings = 0;                     // left to it
+  double known_at = 0.0;                // place within a span, and the curvature there
+  double known = 0.0;
 
   /// Adds an interval whose speeds at the nodes are known; returns arc lengths at its quarters.
   std::array<double, 4> append(double begin, double half, const Quartic& q,
@@ -100,19 +155,66 @@ struct ArcLength::Builder {
   void add_cubic(const SpanCubic& cubic, double begin, double half, int depth) {
     const Tangent tangent(cubic, begin + half - cubic.begin, half);
     const Quartic q = tangent.square();
-    if (!is_smooth(q, half) && depth < kMaxDepth) {
+    if (sampling == Sampling::kSparse && depth > 0 && add_sparse(cubic, begin, half, tangent, q)) {
+      return;
+    }
+    if (!is_smooth(q, kRadius) && !is_shorter(q, half, kLengthTolerance) && depth < kMaxDepth) {
       add_cubic(cubic, begin, 0.5 * half, depth + 1);
       add_cubic(cubic, begin + half, 0.5 * half, depth + 1);
       return;
     }
+    const double from = table.length_;
+    const std::array<double, 4> s = append(begin, half, q, speeds_of(q));
+    if (sampling == Sampling::kSparse && is_straight(tangent, q, half)) {
+      samples->push_back({begin, from, 0.0});
+    } else if (samples != nullptr) {
+      sample_cubic(tangent, q, begin, half, s, *samples);
+    }
+  }
+
+  static gauss::Values<5> speeds_of(const Quartic& q) noexcept {
     gauss::Values<5> speeds;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       speeds[i] = root(value(q, FivePoints::kNodes[i]));
     }
-    const std::array<double, 4> s = append(begin, half, q, speeds);
-    if (samples != nullptr) {
-      sample_cubic(tangent, q, begin, half, s, *samples);
+    return speeds;
+  }
+
+  /// Adds a short interval on which the curvature rises or falls, with few samples. At the end of
+  /// the span where it is largest they are close.
+  /// @returns false, with nothing done, where it is none
+  bool add_sparse(const SpanCubic& cubic, double begin, double half, const Tangent& tangent,
+                  const Quartic& q) {
+    if (!is_smooth(q, kSparseRadius) || !is_shorter(q, half, kSparseLength)) {
+      return false;
     }
+    const Bending bending(tangent, q, half);
+    const double first = begin > cubic.begin && begin == known_at ? known : bending.at(-1.0);
+    const double last = bending.at(1.0);
+    known_at = begin + 2.0 * half;
+    known = last;
+    if (!is_monotone(first, bending.at(0.0), last)) {
+      return false;
+    }
+    const gauss::Values<5> speeds = speeds_of(q);
+    const double s = table.length_;
+    table.intervals_.push_back({begin, half, s, q});
+    table.length_ += half * gauss::weighted_sum(FivePoints::kWeights, speeds);
+    samples->push_back({begin, s, first});
+    const bool falls = first > last;
+    if (falls ? begin > cubic.begin : begin + 2.5 * half < cubic.end) {
+      return true;
+    }
+    for (std::size_t i = 0; i < kGraded; ++i) {
+      const std::size_t k = falls ? i : kGraded - 1 - i;
+      const double x = falls ? kGradedPlaces[k] : -kGradedPlaces[k];
+      const double part =
+          half * (falls ? gauss::weighted_sum(kGradedWeights[k], speeds)
+                        : gauss::weighted_sum(kGradedWeights[k], gauss::reversed(speeds)));
+      samples->push_back(
+          {begin + (1.0 + x) * half, falls ? s + part : table.length_ - part, bending.at(x)});
+    }
+    return true;
   }
 
   gauss::Values<5> speeds_on(int span, double begin, double half) const {
@@ -145,20 +247,25 @@ struct ArcLength::Builder {
   }
 };
 
-void ArcLength::build(const Curve& curve, std::vector<CurvatureSample>* samples) {
+void ArcLength::build(const Curve& curve, std::vector<CurvatureSample>* samples,
+                      Sampling sampling) {
   intervals_.clear();
   length_ = 0.0;
   is_cubic_ = curve.degree() == 3 && !curve.is_rational();
   if (samples != nullptr) {
     samples->clear();
   }
-  Builder builder{*this, curve, samples};
+  Builder builder{*this, curve, samples, samples != nullptr ? sampling : Sampling::kEven};
   const std::vector<double>& u = curve.knots();
   const int end = static_cast<int>(u.size()) - curve.degree() - 1;
   for (const Vec3& point : curve.control_points()) {
     builder.tolerance = std::max(builder.tolerance, kRounding * point.cwiseAbs().maxCoeff());
   }
   builder.halvings = kHalvings * end + kMoreHalvings;
+  intervals_.reserve(2 * static_cast<std::size_t>(end));
+  if (samples != nullptr) {
+    samples->reserve(4 * static_cast<std::size_t>(end));
+  }
   for (int span = curve.degree(); span < end; ++span) {
     const double half = 0.5 * (u[span + 1] - u[span]);
     if (!(half > 0.0)) {

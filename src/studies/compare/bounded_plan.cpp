@@ -90,7 +90,7 @@ Expected<BoundedPlan> bounded_plan(const gcode::ProgramText& program,
                                    const config::MachineFile& machine,
                                    const std::optional<double>& feedrate, Profiles profiles) {
   gcode::Reader reader(program, runtime::reader_options(machine, feedrate));
-  BoundedPlan result{.time_bound = 0.0, .planned = {3, {}}, .bound = {3, {}}};
+  BoundedPlan result{.planned = {3, {}}, .bound = {3, {}}};
   feedrate::TimeBound::Profile profile;
   double last_s = 0.0;
   double last_v = 0.0;
@@ -115,6 +115,7 @@ Expected<BoundedPlan> bounded_plan(const gcode::ProgramText& program,
     return true;
   }));
   result.time_bound = bound.finish();
+  result.time_bound_with_jerk = bound.with_jerk();
   return result;
 }
 

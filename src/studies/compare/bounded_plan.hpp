@@ -12,9 +12,10 @@ namespace twin::studies::compare {
 
 /// A plan beside its lower bound, see feedrate::TimeBound.
 struct BoundedPlan {
-  double time_bound = 0.0;  ///< [s]
-  results::Table planned;   ///< columns s [mm], feedrate [mm/s], time without rests [s]
-  results::Table bound;     ///< the same of the bound; more than one row at a place are possible
+  double time_bound = 0.0;            ///< without a limit of jerk, as the profile `bound` [s]
+  double time_bound_with_jerk = 0.0;  ///< [s]
+  results::Table planned;             ///< columns s [mm], feedrate [mm/s], time without rests [s]
+  results::Table bound;  ///< the same of the bound; more than one row at a place are possible
 };
 
 /// Whether bounded_plan() records the feedrate along the path. Else the tables stay empty.

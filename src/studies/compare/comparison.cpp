@@ -36,7 +36,7 @@ Expected<void> add_plan(const studies::jobs::Job& job, Contestant& contestant) {
   TWIN_TRY(contestant.summary.planning_time, planning_time(job));
   TWIN_TRY(contestant.plan,
            bounded_plan(job.program, job.machine, job.feedrate, Profiles::kRecorded));
-  contestant.summary.time_bound = contestant.plan.time_bound;
+  contestant.summary.time_bound = contestant.plan.time_bound_with_jerk;
   return {};
 }
 

@@ -67,7 +67,7 @@ Expected<void> complete(const studies::jobs::Job& job, PlannerRow& row) {
   TWIN_TRY(row.summary.planning_time, planning_time(job));
   TWIN_TRY(const BoundedPlan plan,
            bounded_plan(job.program, job.machine, job.feedrate, Profiles::kLeftOut));
-  row.summary.time_bound = plan.time_bound;
+  row.summary.time_bound = plan.time_bound_with_jerk;
   row.verdict = audit_verdict(row.summary.audit, job.machine.limits);
   return {};
 }

@@ -33,4 +33,19 @@ inline double bound_of(const std::vector<gcode::Block>& blocks, const PlanSettin
   return bound_of(plan(blocks, settings), settings, profile);
 }
 
+/// Bounds of a plan without and with the limit of jerk [s].
+struct Bounds {
+  double without_jerk;
+  double with_jerk;
+};
+
+inline Bounds bounds_of(const Plan& plan, const PlanSettings& settings = {}) {
+  feedrate::TimeBound bound(settings.limits, settings.model, settings.path, settings.period);
+  for (const feedrate::PlannedSegment& planned : plan.segments) {
+    bound.add(planned);
+  }
+  const double without_jerk = bound.finish();
+  return {without_jerk, bound.with_jerk()};
+}
+
 }  // namespace twin::test

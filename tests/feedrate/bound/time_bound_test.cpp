@@ -89,6 +89,31 @@ TEST(TimeBound, ACornerIsPassedAtThePlannersOwnLimit) {
   EXPECT_NEAR(bound_of(plan), ramp_time(20.0, 0.0, corner) + ramp_time(20.0, corner, 0.0), 1e-9);
 }
 
+TEST(JerkBound, ALineTakesItsSCurve) {
+  const double ramp = std::sqrt(kV / 50000.0);
+  const auto plan = test::plan({line_block({0, 0, 0}, {60, 0, 0})});
+  EXPECT_NEAR(test::bounds_of(plan).with_jerk, 60.0 / kV + 2.0 * ramp, 1e-9);
+  EXPECT_NEAR(plan.time, 60.0 / kV + 2.0 * ramp, 1e-9);
+}
+
+TEST(JerkBound, AnArcTakesItsSCurveToTheFeedrateOfItsCurvature) {
+  const double radius = 0.5;
+  const double v = std::sqrt(kA * radius);
+  const auto arc = arc_block({0, 0, 0}, {1, 0, 0}, radius, 4.0 * std::numbers::pi, true);
+  const PlanSettings settings = without_servo_model();
+  EXPECT_NEAR(test::bounds_of(test::plan({arc}, settings), settings).with_jerk,
+              4.0 * std::numbers::pi * radius / v + 2.0 * std::sqrt(v / 50000.0), 1e-9);
+}
+
+TEST(JerkBound, OfACornerIsWithinTwoPerMilleOfThePlan) {
+  const auto plan = test::plan(std::vector<gcode::Block>{line_block({0, 0, 0}, {10, 0, 0}),
+                                                         line_block({10, 0, 0}, {10, 10, 0})});
+  const test::Bounds bounds = test::bounds_of(plan);
+  EXPECT_LE(bounds.with_jerk, plan.time);
+  EXPECT_GE(bounds.with_jerk, 0.998 * plan.time);
+  EXPECT_LE(bounds.without_jerk, 0.92 * plan.time);
+}
+
 TEST(TimeBound, ItsProfileTakesTheTimeOfTheBound) {
   const auto points = test::circle_points(1.2, 0.1, 400);
   std::vector<test::At> profile;
