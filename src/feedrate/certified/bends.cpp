@@ -102,7 +102,7 @@ void Bends::find_brief_bends() {
     }
     const bool is_cut = (begin == 0 && intervals_[begin].curvature > kValley * peak) ||
                         (end == intervals_.size() && intervals_.back().curvature > kValley * peak);
-    const bool is_brief = !is_cut && turn < 0.9 * std::numbers::pi &&
+    const bool is_brief = !is_cut && turn < kMostBriefTurn &&
                           1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
     for (std::size_t i = begin; i < end; ++i) {
       intervals_[i].is_brief = is_brief;

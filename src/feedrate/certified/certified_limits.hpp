@@ -49,9 +49,9 @@ class CertifiedLimits final : public LimitSource {
   /// @param piece    of the path, by the length of the base path
   /// @param u0, u1   the part
   /// @param s0       distance of its begin along the path [mm]
-  /// @param is_brief  whether the bump is a brief bend
+  /// @param turn     of the whole bump [rad]
   LimitZone zone_of(const geometry::SpanCubic& piece, double u0, double u1, double s0,
-                    double feedrate, bool is_brief) const;
+                    double feedrate, double turn) const;
   /// The zone of a line or arc that leaves a place of the path.
   LimitZone zone_from(const path::PathPoint& at, double s0, double length, double feedrate) const;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "feedrate/certified/summit.hpp"
@@ -11,16 +10,18 @@
 namespace twin::feedrate {
 namespace {
 
-/// Parts of each piece of a bump where the ways up are planned. With one the limits at its middle
-/// hold in all of it; more than four change next to nothing.
-constexpr int kParts = 4;
+/// Ratio of the distances from the corner at which the parts of a bump end. Larger parts have the limits of
+/// their slow ends all along, and make the bump seem slower; smaller ones take more time.
+constexpr double kPartStep = 1.15;
+
+/// The first part of a bump, over the share of its half width within which the pace |C'| doubles, and
+/// the least share. Where the path nearly turns back, the feedrate rises steeply from the middle on.
+constexpr double kFirstPart = 0.25;
+constexpr double kLeastPart = 1.0 / 128.0;
 
 /// A stop has to be quicker by so much. It is what the times leave open: legs whose ends are not alike, and
 /// zones that are merged. With less, corners stay sharp that are slower for it.
 constexpr double kClearly = 0.98;
-
-/// A bump that turns by more is none that is brief (bends.cpp) [rad].
-constexpr double kBriefTurn = 0.9 * std::numbers::pi;
 
 /// Acceleration and jerk of a zone.
 RampLimits ramp_of(const LimitZone& zone, const RampLimits& most) {
@@ -48,11 +49,14 @@ double lowest(const std::vector<LimitZone>& zones) {
 
 }  // namespace
 
-/// Makes the zones of both sides. @param parts  of each piece of the bump
-void CornerTimes::divide(const path::RoundedCorner& corner, int parts) {
+/// Makes the zones of both sides. @param first  share of the half width with the first limit
+void CornerTimes::divide(const path::RoundedCorner& corner, double first) {
   const Vec3 turn = corner.after.at.tangent - corner.before.at.tangent;
-  const bool is_brief = 2.0 * std::asin(std::min(0.5 * turn.norm(), 1.0)) < kBriefTurn;
-  const double feedrate = std::min(corner.before.feedrate, corner.after.feedrate);
+  const double angle = 2.0 * std::asin(std::min(0.5 * turn.norm(), 1.0));
+  shares_.clear();
+  for (double share = first; share < 1.0; share *= kPartStep) {
+    shares_.push_back(share);
+  }
   const auto start = [&](Side& side, const path::CornerSide& leg, Sense sense) {
     side.zones.clear();
     side.sense = sense;
@@ -69,14 +73,27 @@ void CornerTimes::divide(const path::RoundedCorner& corner, int parts) {
   };
   append_leg(before_, 0.0);
   for (const geometry::SpanCubic& piece : corner.pieces) {
-    Side& side = 0.5 * (piece.begin + piece.end) < corner.corner ? before_ : after_;
-    for (int i = 0; i < parts; ++i) {
-      const double step = (piece.end - piece.begin) / parts;
-      const double s = side.zones.empty() ? 0.0 : side.zones.back().end;
-      side.zones.push_back(limits_->zone_of(piece, piece.begin + i * step,
-                                            piece.begin + (i + 1) * step, s, feedrate, is_brief));
-      side.bump += side.zones.back().end - side.zones.back().begin;
+    const bool is_before = 0.5 * (piece.begin + piece.end) < corner.corner;
+    Side& side = is_before ? before_ : after_;
+    const double feedrate = is_before ? corner.before.feedrate : corner.after.feedrate;
+    const auto append = [&](double from, double to) {
+      if (to > from) {
+        const double s = side.zones.empty() ? 0.0 : side.zones.back().end;
+        side.zones.push_back(limits_->zone_of(piece, from, to, s, feedrate, angle));
+        side.bump += side.zones.back().end - side.zones.back().begin;
+      }
+    };
+    double from = piece.begin;
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      const double border =
+          is_before ? corner.corner - corner.half_width * shares_[shares_.size() - 1 - i]
+                    : corner.corner + corner.half_width * shares_[i];
+      if (border > from && border < piece.end) {
+        append(from, border);
+        from = border;
+      }
     }
+    append(from, piece.end);
   }
   append_leg(after_, after_.zones.empty() ? 0.0 : after_.zones.back().end);
 }
@@ -103,7 +120,7 @@ double CornerTimes::time_of(const Side& side, double from) {
 }
 
 bool CornerTimes::is_stop_quicker(const path::RoundedCorner& corner) {
-  divide(corner, 1);
+  divide(corner, 1.0);
   const auto with_stop = [&](const Side& side) {
     return rise_time(0.0, side.leg.end - side.leg.begin, side.leg.limit, ramp_of(side.leg, ramp_));
   };
@@ -116,7 +133,8 @@ bool CornerTimes::is_stop_quicker(const path::RoundedCorner& corner) {
   if (at_most(before_) + at_most(after_) <= stop) {
     return false;
   }
-  divide(corner, kParts);
+  const double pace = 0.5 * (corner.before.at.tangent + corner.after.at.tangent).norm();
+  divide(corner, std::max(kFirstPart * pace, kLeastPart));
   middle = std::min(lowest(before_.zones), lowest(after_.zones));
   return stop < kClearly * (time_of(before_, middle) + time_of(after_, middle));
 }

@@ -42,7 +42,7 @@ class CornerTimes final : public path::CornerJudge {
     Sense sense = Sense::kForward;
   };
 
-  void divide(const path::RoundedCorner& corner, int parts);
+  void divide(const path::RoundedCorner& corner, double first);
   double time_of(const Side& side, double from);
 
   std::unique_ptr<CertifiedLimits> limits_;
@@ -51,6 +51,7 @@ class CornerTimes final : public path::CornerJudge {
   Side after_;
   ZoneAscent up_;
   ZoneAscent down_;
+  std::vector<double> shares_;  // of the half width, where zones end
   std::vector<Phase> phases_;
 };
 
