@@ -23,6 +23,20 @@ inline Json rounded_or_null(const std::optional<double>& x) {
   return x ? Json(rounded(*x)) : Json(nullptr);
 }
 
+/// A text of an object, or null where the JSON is no object or has no text of this name.
+inline const std::string* text_in(const Json& json, const char* key) {
+  const auto member = json.is_object() ? json.find(key) : json.end();
+  return member != json.end() && member->is_string() ? member->get_ptr<const std::string*>()
+                                                     : nullptr;
+}
+
+/// The same of a number.
+inline std::optional<double> number_in(const Json& json, const char* key) {
+  const auto member = json.is_object() ? json.find(key) : json.end();
+  return member != json.end() && member->is_number() ? std::optional(member->get<double>())
+                                                     : std::nullopt;
+}
+
 /// Text of a JSON file: indented, with a line feed at its end. A number that is not finite is
 /// written as null, and bytes that are no UTF-8 are replaced.
 inline std::string to_text(const Json& json) {

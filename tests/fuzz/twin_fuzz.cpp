@@ -34,7 +34,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::array kTargets{&kReader, &kMachineFile, &kCsv, &kOperator, &kJson, &kChain};
+const std::array kTargets{&kReader, &kMachineFile, &kCsv,    &kOperator, &kJson,    &kTools,
+                          &kJobs,   &kStore,       &kLearnt, &kHdf5,     &kSegment, &kChain};
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr unsigned kPatience = 200;  // for one file or one program [s]
 #else

@@ -36,8 +36,8 @@ std::vector<gcode::Block> zigzag(int legs, double length, double turn, double fe
 double judged_time(const std::vector<gcode::Block>& blocks, const PlanSettings& settings) {
   std::vector<path::Segment> segments;
   const auto parts = make_planner(settings.limits, settings.model, settings.path, settings.period);
-  const auto builder = parts->make_builder(
-      [&](path::Segment&& segment) { segments.push_back(std::move(segment)); });
+  const auto builder =
+      parts->make_builder([&](path::Segment&& segment) { segments.push_back(std::move(segment)); });
   for (const gcode::Block& block : blocks) {
     builder->push(block);
   }
@@ -132,7 +132,8 @@ TEST(CornerTimes, RandomZigzagsTakeNoLongerThanWithStopsOrWithBumpsAlone) {
     settings.limits.acceleration = log_uniform(20.0, 1e6);
     settings.limits.jerk = log_uniform(500.0, 1e9);
     for (int axis = 0; axis < 2 && i % 2 == 0; ++axis) {
-      settings.limits.axis_acceleration[axis] = settings.limits.acceleration * log_uniform(0.1, 1.2);
+      settings.limits.axis_acceleration[axis] =
+          settings.limits.acceleration * log_uniform(0.1, 1.2);
       settings.limits.axis_jerk[axis] = settings.limits.jerk * log_uniform(0.1, 1.2);
     }
     const auto blocks =

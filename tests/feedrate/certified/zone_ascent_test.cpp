@@ -191,7 +191,8 @@ TEST(ZoneAscent, ARiseIsNotHeldBelowTheLimitWhereRoundingPutsItAboveALevel) {
       const auto zone = std::find_if(zones.begin(), zones.end(), [&](const LimitZone& candidate) {
         return candidate.end > phase.s + 1e-9;
       });
-      if (phase.a == 0.0 && phase.j == 0.0 && zone != zones.end() && phase.v * phase.duration > 1e-6) {
+      if (phase.a == 0.0 && phase.j == 0.0 && zone != zones.end() &&
+          phase.v * phase.duration > 1e-6) {
         EXPECT_GE(phase.v, zone->limit * (1.0 - 1e-6)) << "case " << i << " at " << phase.s;
       }
     }
