@@ -24,6 +24,20 @@ inline Json rounded_or_null(const std::optional<double>& x) {
   return x ? Json(rounded(*x)) : Json(nullptr);
 }
 
+/// A text of an object, or null where the JSON is no object or has no text of this name.
+inline const std::string* text_in(const Json& json, const char* key) {
+  const auto member = json.is_object() ? json.find(key) : json.end();
+  return member != json.end() && member->is_string() ? member->get_ptr<const std::string*>()
+                                                     : nullptr;
+}
+
+/// The same of a number.
+inline std::optional<double> number_in(const Json& json, const char* key) {
+  const auto member = json.is_object() ? json.find(key) : json.end();
+  return member != json.end() && member->is_number() ? std::optional(member->get<double>())
+                                                     : std::nullopt;
+}
+
 // What takes long to compile is in one source.
 
 /// The JSON value that a text is; a value with is_discarded() when it is none.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "feedrate/certified/certified_limits.hpp"
+#include "feedrate/certified/corner_times.hpp"
 #include "feedrate/certified/glide_planner.hpp"
 #include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/corners.hpp"
@@ -71,7 +72,10 @@ class CertifiedPlanner final : public PlannerParts {
   explicit CertifiedPlanner(Settings settings) : of_(std::move(settings)) {}
 
   std::unique_ptr<path::Builder> make_builder(path::Builder::Sink sink) const override {
-    return std::make_unique<path::SmoothBuilder>(of_.path, of_.model, of_.limits, std::move(sink));
+    auto times = std::make_unique<CornerTimes>(
+        std::make_unique<CertifiedLimits>(of_.limits, of_.model, of_.path, of_.period), of_.ramp());
+    return std::make_unique<path::SmoothBuilder>(of_.path, of_.model, of_.limits, std::move(sink),
+                                                 std::move(times));
   }
   std::unique_ptr<LimitSource> make_limits() const override {
     return std::make_unique<CertifiedLimits>(of_.limits, of_.model, of_.path, of_.period);

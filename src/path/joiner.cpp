@@ -185,7 +185,8 @@ void Joiner::join_to_last() {
   if (bump.turn.norm() > kNoJump && join_by_passage(width)) {
     return;
   }
-  if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin)) {
+  if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin) ||
+      is_judged_sharp(bump, width, end, begin)) {
     emit_body(before_, before_.end);
     if (has_jump) {
       writer_.end_curve();
@@ -281,14 +282,34 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
   return lost_by_stop < lost_in_bump;
 }
 
-void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {
+/// Whether the judge of corners would rather stop than go through a bump.
+bool Joiner::is_judged_sharp(const geometry::CornerBump& bump, double width, const PathPoint& end,
+                             const PathPoint& begin) {
+  if (judge_ == nullptr) {
+    return false;
+  }
+  make_bump(bump, width);
+  return judge_->is_stop_quicker({pieces_,
+                                  before_.end,
+                                  width,
+                                  {end, before_.end - before_.begin, before_.feedrate},
+                                  {begin, under_way_.end - under_way_.begin, under_way_.feedrate}});
+}
+
+/// Makes the pieces of the path around the corner.
+void Joiner::make_bump(const geometry::CornerBump& bump, double width) {
   const double corner = before_.end;
-  const double base = std::max(deviation(before_, corner - width, corner),
-                               deviation(under_way_, corner, corner + width));
   pieces_.clear();
   append_pieces(before_, corner - width, corner);
   append_pieces(under_way_, corner, corner + width);
   geometry::add_bump(bump, corner, width, pieces_);
+}
+
+void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {
+  const double corner = before_.end;
+  const double base = std::max(deviation(before_, corner - width, corner),
+                               deviation(under_way_, corner, corner + width));
+  make_bump(bump, width);
   for (const geometry::SpanCubic& piece : pieces_) {
     writer_.cubic(piece, base + bump.height(width));
   }

@@ -11,6 +11,7 @@
 #include "path/arc_pieces.hpp"
 #include "path/corner/corner_fit.hpp"
 #include "path/corner/corner_table.hpp"
+#include "path/corner_judge.hpp"
 #include "path/segment_writer.hpp"
 
 namespace twin::path {
@@ -28,7 +29,7 @@ namespace twin::path {
 ///
 /// Else a corner at which the path nearly turns back, |C'(0-) + C'(0+)| / 2 < kLeastPace, stays sharp. So
 /// does one where the jerk of single axes lets a stop at the corner lose less time than the way
-/// through the bump (path/passage.hpp).
+/// through the bump (path/passage.hpp), or where the judge of corners says so.
 ///
 /// Elements (lines, arcs, runs, pieces of a NURBS) come in order, with the length of the base path at their ends; a
 /// run comes span by span. An element is given to the writer as soon as the corner at its end is
@@ -36,8 +37,9 @@ namespace twin::path {
 /// change.
 class Joiner : public geometry::RunSink {
  public:
-  Joiner(SegmentWriter& writer, const Limits& limits, CornerKind corners)
-      : writer_(writer), limits_(limits), corners_(corners) {}
+  /// @param judge  of corners; null: every corner is rounded that can be
+  Joiner(SegmentWriter& writer, const Limits& limits, CornerKind corners, CornerJudge* judge)
+      : writer_(writer), limits_(limits), corners_(corners), judge_(judge) {}
 
   /// Sets what is asked for on the elements that follow.
   /// @param tolerance  [mm]
@@ -84,6 +86,9 @@ class Joiner : public geometry::RunSink {
   double bump_width(const geometry::CornerBump& bump) const;
   bool is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
                        const PathPoint& begin) const;
+  bool is_judged_sharp(const geometry::CornerBump& bump, double width, const PathPoint& end,
+                       const PathPoint& begin);
+  void make_bump(const geometry::CornerBump& bump, double width);
   void emit_bump(const geometry::CornerBump& bump, double width);
   void emit_body(Element& element, double end);
   void emit_line(Element& element, double end);
@@ -95,6 +100,7 @@ class Joiner : public geometry::RunSink {
   SegmentWriter& writer_;
   Limits limits_;
   CornerKind corners_;
+  CornerJudge* judge_;
   CornerTable passages_;
   double tolerance_ = 0.0;
   double feedrate_ = 0.0;

@@ -18,12 +18,13 @@ constexpr double kLargestSpeck = 1e-3;  // whatever the tolerance [mm]
 }  // namespace
 
 SmoothBuilder::SmoothBuilder(const PathSettings& settings, const PlanningModel& model,
-                             const Limits& limits, Sink sink)
+                             const Limits& limits, Sink sink, std::unique_ptr<CornerJudge> judge)
     : settings_(settings),
       model_(model),
       limits_(limits),
+      judge_(std::move(judge)),
       writer_(std::move(sink)),
-      joiner_(writer_, limits, settings.corners),
+      joiner_(writer_, limits, settings.corners, judge_.get()),
       run_(joiner_) {}
 
 /// What is left of the tolerance at corners, less that of the specks.

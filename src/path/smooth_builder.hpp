@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "gcode/block.hpp"
 #include "geometry/smoothing/run_spline.hpp"
 #include "path/builder.hpp"
+#include "path/corner_judge.hpp"
 #include "path/joiner.hpp"
 #include "path/segment_writer.hpp"
 
@@ -34,8 +36,9 @@ namespace twin::path {
 /// path.
 class SmoothBuilder : public Builder {
  public:
+  /// @param judge  of corners that had better stay sharp; null: none had
   SmoothBuilder(const PathSettings& settings, const PlanningModel& model, const Limits& limits,
-                Sink sink);
+                Sink sink, std::unique_ptr<CornerJudge> judge = nullptr);
 
   void push(const gcode::Block& block) override;
   void finish() override;
@@ -76,6 +79,7 @@ class SmoothBuilder : public Builder {
   PathSettings settings_;
   PlanningModel model_;
   Limits limits_;
+  std::unique_ptr<CornerJudge> judge_;
   SegmentWriter writer_;
   Joiner joiner_;
   geometry::RunSpline run_;

@@ -47,6 +47,12 @@ extern const Target kMachineFile;  ///< a machine file, and lines of `--set`
 extern const Target kCsv;          ///< a trace or a recording
 extern const Target kOperator;     ///< lines of the control socket, keys, override schedules
 extern const Target kJson;         ///< summary.json of a folder of results
+extern const Target kTools;        ///< a tool table
+extern const Target kJobs;         ///< a job file, a sweep, what twin identify has found
+extern const Target kStore;        ///< records of a store of results
+extern const Target kLearnt;       ///< a correction, what runs have taught, a search's checkpoint
+extern const Target kHdf5;         ///< a trace as HDF5
+extern const Target kSegment;      ///< the shared memory of `twin plant`
 extern const Target kChain;        ///< settings, program, overrides and holds to set points
 
 }  // namespace twin::fuzz

@@ -26,6 +26,7 @@
 //   twin_fuzz show TARGET FILE    what a file means
 //   twin_fuzz random COUNT SEED [FIRST]   random programs through the whole chain
 //                                 (TWIN_FUZZ_EACH=1: each broken promise with its program, too)
+//   twin_fuzz times FILE          time of each block of a case of the chain, beside that with stops
 //   twin_fuzz minimise FILE TEXT  smaller bytes for the chain with a finding that says TEXT still
 //   twin_fuzz bytes NUMBER SEED   the bytes of one of them, to standard output
 namespace twin::fuzz {
@@ -33,7 +34,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::array kTargets{&kReader, &kMachineFile, &kCsv, &kOperator, &kJson, &kChain};
+const std::array kTargets{&kReader, &kMachineFile, &kCsv,    &kOperator, &kJson,    &kTools,
+                          &kJobs,   &kStore,       &kLearnt, &kHdf5,     &kSegment, &kChain};
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr unsigned kPatience = 200;  // for one file or one program [s]
 #else
@@ -88,6 +90,23 @@ int show_file(std::string_view name, const fs::path& file) {
   }
   fmt::print(stderr, "no target is called {}\n", name);
   return 2;
+}
+
+/// Prints where a case of the chain spends its time, block by block.
+int show_times(const fs::path& file) {
+  const auto bytes = contents(file);
+  const Case made = make_case(bytes);
+  const Trajectory trajectory = follow(made);
+  fmt::print("{:>5} {:>12} {:>12} {:>8}  times of blocks, and with a stop after each [s]\n", "line",
+             "time", "with stops", "ratio");
+  for (const Piece& piece : made.program.pieces) {
+    const auto periods = std::count(trajectory.lines.begin(), trajectory.lines.end(), piece.line);
+    const double time = static_cast<double>(periods) * made.machine.period;
+    const double with_stop = reference_time(piece, made.machine);
+    fmt::print("{:5} {:12.6f} {:12.6f} {:8.3f}\n", piece.line, time, with_stop,
+               with_stop > 0.0 ? time / with_stop : 0.0);
+  }
+  return 0;
 }
 
 /// Whether each broken promise is printed as it is found.
@@ -190,6 +209,9 @@ int run(const std::vector<std::string>& words) {
   if (words.size() == 3 && words[0] == "show") {
     return show_file(words[1], words[2]);
   }
+  if (words.size() == 2 && words[0] == "times") {
+    return show_times(words[1]);
+  }
   if (words.size() >= 3 && words[0] == "random") {
     return run_random(std::stoull(words[1]), std::stoull(words[2]),
                       words.size() > 3 ? std::stoull(words[3]) : 0);
@@ -204,10 +226,10 @@ int run(const std::vector<std::string>& words) {
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);
     return 0;
   }
-  fmt::print(stderr,
-             "twin_fuzz findings FOLDER | show TARGET FILE | random COUNT SEED [FIRST] | minimise "
-             "FILE TEXT | bytes "
-             "NUMBER SEED\n");
+  fmt::print(
+      stderr,
+      "twin_fuzz findings FOLDER | show TARGET FILE | random COUNT SEED [FIRST] | times FILE | "
+      "minimise FILE TEXT | bytes NUMBER SEED\n");
   return 2;
 }
 

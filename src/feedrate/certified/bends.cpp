@@ -110,7 +110,7 @@ void Bends::find_brief_bends(double first_curvature, double last_curvature) {
     }
     const bool is_cut = (begin == 0 && first_curvature > kValley * peak) ||
                         (end == intervals_.size() && last_curvature > kValley * peak);
-    const bool is_brief = !is_cut && turn < 0.9 * std::numbers::pi &&
+    const bool is_brief = !is_cut && turn < kMostBriefTurn &&
                           1.0 / std::cos(0.5 * turn) - 1.0 <= corner_error_ * peak;
     for (std::size_t i = begin; i < end; ++i) {
       intervals_[i].is_brief = is_brief;

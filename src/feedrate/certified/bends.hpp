@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
+
+/// A bend that turns by more is none that is brief [rad].
+inline constexpr double kMostBriefTurn = 0.9 * std::numbers::pi;
 
 /// A stretch of a curve between two samples of its curvature.
 struct BendInterval {

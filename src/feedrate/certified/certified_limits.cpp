@@ -316,6 +316,39 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
   }
 }
 
+LimitZone CertifiedLimits::zone_of(const geometry::SpanCubic& piece, double u0, double u1,
+                                   double s0, double feedrate, double turn) const {
+  const auto derivatives_at = [&](double u) {
+    const double t = u - piece.begin;
+    return geometry::Derivatives{
+        piece.position(u), piece.c1 + t * (2.0 * piece.c2 + 3.0 * t * piece.c3), piece.second(u)};
+  };
+  const bool is_brief = turn < kMostBriefTurn;
+  const Vec3 third = 6.0 * piece.c3;
+  const auto from = derivatives_at(u0);
+  const auto middle = derivatives_at(0.5 * (u0 + u1));
+  const auto to = derivatives_at(u1);
+  const ByArcLength begin = by_arc_length(from, third);
+  const ByArcLength end = by_arc_length(to, third);
+  const double length =  // Simpson's rule
+      (u1 - u0) / 6.0 * (from.first.norm() + 4.0 * middle.first.norm() + to.first.norm());
+  const BendInterval interval{
+      0.0, length, u0, u1, std::max(begin.second.norm(), end.second.norm()), is_brief};
+  LimitZone zone{s0, s0 + length, limit_at(interval, feedrate, On::kCurve)};
+  keep_derivatives(begin, by_arc_length(middle, third), end,
+                   is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
+  return zone;
+}
+
+LimitZone CertifiedLimits::zone_from(const path::PathPoint& at, double s0, double length,
+                                     double feedrate) const {
+  const BendInterval interval{0.0, length, 0.0, 1.0, at.curvature.norm()};
+  const ByArcLength place{at.tangent, at.curvature, Vec3::Zero()};
+  LimitZone zone{s0, s0 + length, limit_at(interval, feedrate, On::kArcOrLine)};
+  keep_derivatives(place, place, place, BendKind::kLasting, zone);
+  return zone;
+}
+
 void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) const {
   LimitZone& before = zones[first - 1];
   const LimitZone& zone = zones[first];

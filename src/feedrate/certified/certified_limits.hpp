@@ -8,6 +8,7 @@
 #include "feedrate/limits/axis_limits.hpp"
 #include "feedrate/limits/zones.hpp"
 #include "feedrate/planner.hpp"
+#include "geometry/nurbs/span_cubic.hpp"
 #include "path/segment.hpp"
 
 namespace twin::feedrate {
@@ -43,6 +44,16 @@ class CertifiedLimits final : public LimitSource {
   /// Merges zones[first] with the zone before it if both have the same limits.
   void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
   RampLimits least_ramp() const override;
+
+  /// The zone of a part of a bump at a corner.
+  /// @param piece    of the path, by the length of the base path
+  /// @param u0, u1   the part
+  /// @param s0       distance of its begin along the path [mm]
+  /// @param turn     of the whole bump [rad]
+  LimitZone zone_of(const geometry::SpanCubic& piece, double u0, double u1, double s0,
+                    double feedrate, double turn) const;
+  /// The zone of a line or arc that leaves a place of the path.
+  LimitZone zone_from(const path::PathPoint& at, double s0, double length, double feedrate) const;
 
  private:
   double any_turn_feedrate() const noexcept;

@@ -176,12 +176,18 @@ void ZoneAscent::append(double duration, double jerk) {
   at_ = motion_at(phases_.back(), duration);
 }
 
-/// -J until a = 0, then no acceleration, up to the end of a cell or of a level.
+/// -J until a = 0, up to the end of a cell or of a level.
+///
+/// Behind the end of a cell or of a level a may be above what is allowed by the rounding of the place, which
+/// a high jerk makes large. Then it comes down to what is allowed, and goes on from there.
 void ZoneAscent::leave(const Cell& cell) {
-  Phase phase{at_.a / cell.jerk, at_.s, at_.v, at_.a, -cell.jerk};
-  const double top = levels_[level_at(cell, at_.v)].top;
+  const RampLevel& level = levels_[level_at(cell, at_.v)];
+  const double least = at_.a > level.acceleration ? level.acceleration : 0.0;
+  Phase phase{(at_.a - least) / cell.jerk, at_.s, at_.v, at_.a, -cell.jerk};
+  const double top = level.top;
   const double square = at_.a * at_.a - 2.0 * cell.jerk * (top - at_.v);
-  if (square > 0.0) {
+  const bool reaches_top = square > least * least;
+  if (reaches_top) {
     phase.duration = std::min(phase.duration, 2.0 * (top - at_.v) / (at_.a + std::sqrt(square)));
   }
   if (motion_at(phase, phase.duration).s > cell.end) {
@@ -190,13 +196,18 @@ void ZoneAscent::leave(const Cell& cell) {
     return;
   }
   append(phase.duration, -cell.jerk);
-  if (square > 0.0) {
+  if (reaches_top) {
     at_.v = top;
     return;
   }
-  at_.a = 0.0;
+  at_.a = least;
+  if (least > 0.0) {
+    return;
+  }
   at_.v = top_;
-  hold(cell);
+  if (at_.v >= cell.limit * (1.0 - kFeedrateRounding)) {
+    hold(cell);
+  }
 }
 
 /// No acceleration up to the end of a cell, whose limit is reached but for rounding.

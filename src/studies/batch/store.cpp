@@ -75,9 +75,13 @@ bool calls_the_same(const gcode::ProgramText& program, const std::string& summar
     return true;
   }
   return std::ranges::all_of(json["subprograms"], [&](const Json& called) {
-    const fs::path file = called.value("file", "");
-    const auto text = program.subprogram(file.stem().string());
-    return text && *text && called.value("sha256", "") == (*text)->sha256();
+    const std::string* const file = text_in(called, "file");
+    const std::string* const checksum = text_in(called, "sha256");
+    if (file == nullptr || checksum == nullptr) {
+      return false;
+    }
+    const auto text = program.subprogram(fs::path(*file).stem().string());
+    return text && *text && *checksum == (*text)->sha256();
   });
 }
 
@@ -89,7 +93,7 @@ Expected<Store> Store::open(fs::path folder) {
   std::error_code code;
   if (const auto text = read_whole_file(mark)) {
     const Json json = parse_json(*text);
-    if (!json.is_object() || json.value("layout", 0) != kLayout) {
+    if (number_in(json, "layout") != kLayout) {
       return tl::unexpected(
           Error{ErrorCode::kFile,
                 fmt::format("is a store of another layout than {}; use another folder", kLayout),
@@ -140,7 +144,8 @@ std::optional<StoredResult> Store::find(const PreparedJob& job) const {
   StoredResult result{summary.value_or(std::string()), {}};
   if (failure) {
     const Json json = parse_json(*failure);
-    result.failure = json.is_object() ? json.value("error", "unknown") : "unknown";
+    const std::string* const failed = text_in(json, "error");
+    result.failure = failed != nullptr ? *failed : "unknown";
   }
   return result;
 }

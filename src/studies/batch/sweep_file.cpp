@@ -19,21 +19,25 @@ namespace {
 
 constexpr std::int64_t kMostPoints = 1'000'000'000'000;
 
+/// Levels of an identify.json below which nothing is looked for; twin identify writes four.
+constexpr int kMostLevels = 16;
+
 /// Every parameter below a value of an identify.json that has a deviation, and was found.
-void collect_identified(const Json& json, std::vector<DrawnKey>& drawn) {
-  if (json.is_object() && json.contains("verdict") && json.contains("key") &&
-      json.contains("sigma") && json["sigma"].is_number() && json["value"].is_number()) {
-    const std::string verdict = json["verdict"].get<std::string>();
-    const auto sigma = json["sigma"].get<double>();
-    if ((verdict == "identified" || verdict == "uncertain") && sigma > 0.0) {
-      drawn.push_back({json["key"].get<std::string>(), json["value"].get<double>(), sigma});
+void collect_identified(const Json& json, std::vector<DrawnKey>& drawn, int level = 0) {
+  const std::string* const verdict = text_in(json, "verdict");
+  const std::string* const name = text_in(json, "key");
+  const auto sigma = number_in(json, "sigma");
+  const auto mean = number_in(json, "value");
+  if (verdict != nullptr && name != nullptr && sigma && mean) {
+    if ((*verdict == "identified" || *verdict == "uncertain") && *sigma > 0.0) {
+      drawn.push_back({*name, *mean, *sigma});
     }
     return;
   }
-  if (json.is_structured()) {
+  if (json.is_structured() && level < kMostLevels) {
     for (const auto& [key, value] : json.items()) {
       if (key != "derived") {
-        collect_identified(value, drawn);
+        collect_identified(value, drawn, level + 1);
       }
     }
   }

@@ -54,8 +54,8 @@ Expected<std::map<std::string, double>> measured_deviations(const config::Machin
   if (!json.is_object() || !json.contains("axis") || !json["axis"].is_object()) {
     return refuse("this is not what twin identify writes; remove it or identify again");
   }
-  const std::string of = json.value("machine_file", std::string());
-  if (std::filesystem::path(of).filename() != machine.file.filename()) {
+  const std::string* const of = text_in(json, "machine_file");
+  if (of == nullptr || std::filesystem::path(*of).filename() != machine.file.filename()) {
     return found;  // of another machine file in the same folder
   }
   for (const auto& axis : json["axis"]) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -165,6 +166,36 @@ TEST(ZoneAscent, IsExtendedAFewTimesForEachZone) {
       ascent.extend();
     }
     ASSERT_TRUE(ascent.is_complete()) << "case " << i;
+  }
+}
+
+// With a jerk of 6e7 mm/s^3 a place that is known to 1e-13 mm leaves the acceleration in doubt by more than a
+// thousand millionth. A rise then lost all of its acceleration, and held its feedrate to the end of the zone.
+TEST(ZoneAscent, ARiseIsNotHeldBelowTheLimitWhereRoundingPutsItAboveALevel) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 300; ++i) {
+    auto zones = random_staircase(random, 1 + static_cast<int>(random() % 25), 0.02);
+    allow_more_below(random, zones);
+    for (LimitZone& zone : zones) {
+      zone.jerk *= 1000.0;
+    }
+    ZoneAscent ascent;
+    ascent.start(zones, 0, {0.0, 0.0}, Sense::kForward,
+                 {kTable2.acceleration, 1000.0 * kTable2.jerk}, zones.back().limit);
+    for (int k = 0; k < kExtensions && !ascent.is_complete(); ++k) {
+      ascent.extend();
+    }
+    ASSERT_TRUE(ascent.is_complete()) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(expect_within_zones(ascent.phases(), zones)) << "case " << i;
+    for (const Phase& phase : ascent.phases()) {
+      const auto zone = std::find_if(zones.begin(), zones.end(), [&](const LimitZone& candidate) {
+        return candidate.end > phase.s + 1e-9;
+      });
+      if (phase.a == 0.0 && phase.j == 0.0 && zone != zones.end() &&
+          phase.v * phase.duration > 1e-6) {
+        EXPECT_GE(phase.v, zone->limit * (1.0 - 1e-6)) << "case " << i << " at " << phase.s;
+      }
+    }
   }
 }
 

@@ -28,19 +28,20 @@ constexpr KnownDefect kKnown[] = {
      [](const Case& made, Measure measure, double share) {
        return is_paper(made) && measure == Measure::kTime && share < 1.4;
      }},
-    {"the certified planner: way that is hidden from set points where the path winds in a period",
+    {"the certified planner: way that is hidden from set points where a fitted path winds in a "
+     "period",
      [](const Case& made, Measure measure, double share) {
-       return !is_paper(made) && measure == Measure::kJerk && share < 1.8;
+       return !is_paper(made) && measure == Measure::kJerk && share < 1.2;
      }},
     {"the certified planner: the jerk of an axis is a nanometre in a period cubed or less",
      [](const Case& made, Measure measure, double share) {
-       return !is_paper(made) && measure == Measure::kAxisJerk && share < 1.5 &&
+       return !is_paper(made) && measure == Measure::kAxisJerk && share < 1.2 &&
               made.machine.limits.axis_jerk.maxCoeff() * std::pow(made.machine.period, 3) <
                   2.0 * kKnownPlace;
      }},
-    {"the certified planner: slower than stopping in some bends, and where the acceleration swings",
+    {"the certified planner: corners of which bump and stop are estimated to take the same time",
      [](const Case& made, Measure measure, double share) {
-       return !is_paper(made) && measure == Measure::kTime && share < 1.6;
+       return !is_paper(made) && measure == Measure::kTime && share < 1.03;
      }},
 };
 

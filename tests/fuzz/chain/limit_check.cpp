@@ -17,6 +17,11 @@ constexpr double kRounding = 1e-10;
 /// in a period are not on it.
 constexpr double kOffShare = 1e-3;
 
+/// A third difference over single periods spans so many set points on either side of its middle.
+constexpr std::int64_t kHidingPeriods = 3;
+/// Set points at rest after the last one, until the audit has judged all.
+constexpr std::size_t kAfterwards = 64;
+
 double highest_feedrate(const Case& made) {
   double programmed = 0.0;
   double percent = 100.0;
@@ -52,6 +57,22 @@ std::vector<Vec3> turns_back(const MadeProgram& program) {
   return places;
 }
 
+/// Whether the path may turn back within a step of these points, unseen by any of them: nobody can
+/// tell how far it went there.
+bool may_turn_back(std::span<const Vec3> p, const std::vector<Vec3>& turns_back) {
+  if (turns_back.empty()) {
+    return false;
+  }
+  double step = 0.0;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    step = std::max(step, (p[i] - p[i - 1]).norm());
+  }
+  return std::any_of(turns_back.begin(), turns_back.end(), [&](const Vec3& place) {
+    return std::any_of(p.begin(), p.end(),
+                       [&](const Vec3& point) { return (point - place).norm() <= step; });
+  });
+}
+
 /// Raises the peaks of one place after the other.
 class Peaks {
  public:
@@ -75,7 +96,7 @@ class Peaks {
             limits_.acceleration * t2);
     }
     look_at_axes(p);
-    if (const auto s = test::lengths_between(p, off_); s && !may_turn_back(p)) {
+    if (const auto s = test::lengths_between(p, off_); s && !may_turn_back(p, turns_back_)) {
       const auto& [a, b, c] = *s;
       raise(Measure::kRawTangential, std::max(std::abs(b - a), std::abs(c - b)) - 4.0 * kRounding,
             limits_.acceleration * t2);
@@ -88,22 +109,6 @@ class Peaks {
   void raise(Measure measure, double value, double allowed) {
     double& share = share_of(shares_, measure);
     share = std::max(std::isnan(share) ? 0.0 : share, value / allowed);
-  }
-
-  /// Whether the path may turn back within a step of these points, unseen by any of them: nobody
-  /// can tell how far it went there.
-  bool may_turn_back(std::span<const Vec3, 6> p) const {
-    if (turns_back_.empty()) {
-      return false;
-    }
-    double step = 0.0;
-    for (std::size_t i = 1; i < p.size(); ++i) {
-      step = std::max(step, (p[i] - p[i - 1]).norm());
-    }
-    return std::any_of(turns_back_.begin(), turns_back_.end(), [&](const Vec3& place) {
-      return std::any_of(p.begin(), p.end(),
-                         [&](const Vec3& point) { return (point - place).norm() <= step; });
-    });
   }
 
   void look_at_axes(std::span<const Vec3, 6> p) {
@@ -134,14 +139,30 @@ class Peaks {
   Shares& shares_;
 };
 
+/// Peaks of results::LimitAudit. A jerk counts only where the path cannot have turned back unseen.
 void audit(const Case& made, const Trajectory& trajectory, Shares& shares) {
   const Limits& limits = made.machine.limits;
   const double period = made.machine.period;
+  const std::vector<Vec3>& points = trajectory.points;
+  const std::vector<Vec3> places = turns_back(made.program);
+  const auto is_hidden = [&](std::int64_t number) {
+    const std::int64_t first = std::max<std::int64_t>(number - kHidingPeriods, 0);
+    const std::int64_t last =
+        std::min(number + kHidingPeriods + 1, static_cast<std::int64_t>(points.size()));
+    return first < last && may_turn_back({points.begin() + first, points.begin() + last}, places);
+  };
   results::LimitAudit audit(period, limits);
-  for (const Vec3& point : trajectory.points) {
-    audit.add(point);
+  results::AuditPeaks peaks;
+  for (std::size_t i = 0; i < points.size() + kAfterwards; ++i) {
+    audit.add(points[std::min(i, points.size() - 1)]);
+    const results::AuditPeaks& now = audit.peaks();
+    peaks.tangential_acceleration =
+        std::max(peaks.tangential_acceleration, now.tangential_acceleration);
+    if (now.tangential_jerk > peaks.tangential_jerk && !is_hidden(audit.where().tangential_jerk)) {
+      peaks.tangential_jerk = now.tangential_jerk;
+    }
+    audit.forget_peaks();
   }
-  const results::AuditPeaks& peaks = audit.finish();
   share_of(shares, Measure::kTangential) =
       (peaks.tangential_acceleration - 4.0 * kRounding / std::pow(period, 2)) / limits.acceleration;
   share_of(shares, Measure::kJerk) =

@@ -74,6 +74,8 @@ TEST(Uncertainty, TakesDeviationsFromWhatIdentifyHasLeftBesideTheMachineFile) {
   EXPECT_EQ(measured->deviations()[0], 0.001);
   folder.put("identify.json", json("other.toml"));
   EXPECT_EQ(Uncertainty::of(machine)->measured(), 0U);
+  folder.put("identify.json", R"({"machine_file": 1, "axis": {}})");  // was an exception
+  EXPECT_EQ(Uncertainty::of(machine)->measured(), 0U);
   folder.put("identify.json", "[]");
   EXPECT_FALSE(Uncertainty::of(machine));
 }
