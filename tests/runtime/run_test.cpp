@@ -154,6 +154,20 @@ TEST_F(RunProgram, TravelIsCheckedBeforeTheMachineIsTouched) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST_F(RunProgram, ProbingIsRefusedBeforeARealMachineIsTouched) {
+  request.program = test::text_of(folder.put("probe.nc", "G0 X1\nG38.2 X5 F600\n"));
+  test::FakeMachine machine;
+  ASSERT_TRUE(run(&machine));
+  EXPECT_EQ(machine.activations, 1);
+  test::FakeMachine real;
+  real.be_real();
+  const auto result = run(&real);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().line, 2);
+  EXPECT_NE(result.error().message.find("would not stop on this machine"), std::string::npos);
+  EXPECT_EQ(real.activations, 0);
+}
+
 /// While it lives no file of this process grows beyond a size, as on a full disk.
 class FileSizeLimit {
  public:
