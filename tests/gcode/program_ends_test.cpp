@@ -74,7 +74,8 @@ TEST(ProgramEnd, ErrorComesBeforeTheBlocksOfItsOwnLine) {
 TEST(ControlCharacters, OfATransferAreLeftOutBeforeALinesWords) {
   const std::string nul(3, '\0');
   EXPECT_EQ(blocks_of("\x01G0 X1\n\x11X2\r\n\x1A").size(), 2U);
-  EXPECT_EQ(blocks_of(nul + "%\nG0 X1\n%\n" + nul + "\n").size(), 1U);
+  EXPECT_EQ(blocks_of("\x02%\nG0 X1\n%\n" + nul + "\n").size(), 1U);
+  EXPECT_EQ(error_of(nul + "G0 X1"), "line 1:1: byte 0x00 is not NC text: is this an NC program?");
   EXPECT_EQ(error_of("\x02 G0 X1\nX2\x02"),
             "line 2:3: byte 0x02 is not NC text: is this an NC program?");
   EXPECT_EQ(error_of("\x02 G0 J"),

@@ -30,6 +30,13 @@ TEST(Refused, CodesByNameWithTheirColumn) {
   EXPECT_THAT(error_of("G37 Z1"), HasSubstr("G37 (automatic measurement of a tool)"));
 }
 
+TEST(Refused, CornersThatTheControlWouldRound) {
+  EXPECT_EQ(error_of("G1 F1 X5 ,R2"),
+            "line 1:10: ',R' (a corner rounded or broken) is not supported: expected its moves "
+            "written out as G00 to G03");
+  EXPECT_EQ(error_of("G1 F1 X5,2"), "line 1:9: unexpected ',': expected a letter and a number");
+}
+
 TEST(Refused, CodesWithoutANameAreNotKnown) {
   EXPECT_EQ(error_of("G1.5"),
             "line 1:1: G1.5 is not known: expected G00 to G05.3, G06.2, G06.3, G08 to G10, G15 to "

@@ -93,11 +93,12 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
   }
 }
 
-/// Takes control characters from the front of a line: a transfer over a serial line and DOS have
-/// them around a program's text. @returns how many
+/// Takes control characters other than NUL from the front of a line: a transfer over a serial line
+/// and DOS have them around a program's text. @returns how many
 std::size_t Flow::step_over_controls(std::string_view& line) {
   std::size_t count = 0;
-  while (count < line.size() && is_control(line[count]) && line[count] != '\x7F') {
+  while (count < line.size() && is_control(line[count]) && line[count] != '\x7F' &&
+         line[count] != '\0') {
     ++count;
   }
   if (count > 0) {
