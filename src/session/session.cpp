@@ -93,7 +93,8 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
 Expected<void> Session::draw_figures() const {
   return session::draw_figures({request_.folder, request_.program, title(),
                                 hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun,
-                                trace_file().filename().string()});
+                                trace_file().filename().string(),
+                                runtime::reader_options(request_.machine, request_.feedrate)});
 }
 
 Expected<void> Session::write_report() const {

@@ -298,6 +298,7 @@ Block& Interpreter::next_block(LineBlocks& blocks, Motion motion) const {
   block.feedrate = 0.0;
   block.tolerance = state_.tolerance;
   block.dwell = 0.0;
+  block.program_zero = coordinates().height_of_origin();
   block.line = line_;
   block.tool = set_up_.tool();
   block.work_offset = static_cast<std::int16_t>(coordinates().selected());
