@@ -36,6 +36,12 @@ Json to_json(const Error& error) {
   return json;
 }
 
+Json to_json(const runtime::ProgramError& error) {
+  Json json = to_json(error.error);
+  json["count"] = error.count;
+  return json;
+}
+
 Json to_json(const gcode::Note& note) {
   return Json{{"kind", name_of(note.kind)},
               {"text", note.text},
@@ -87,14 +93,19 @@ Json to_json(const ProgramReport& report) {
   return json;
 }
 
+/// "1 block", "20 blocks"
+std::string blocks_of(std::int64_t count) {
+  return fmt::format("{} block{}", count, count == 1 ? "" : "s");
+}
+
 /// "T1 from line 4, 20 blocks, 3.21 s; T2 ..."
 std::string tools_of(const ProgramReport& report) {
   std::vector<std::string> texts;
   for (const runtime::ToolUse& tool : report.tools) {
     texts.push_back(
-        fmt::format("{} from line {}, {} blocks, {:.3f} s",
+        fmt::format("{} from line {}, {}, {:.3f} s",
                     tool.number == 0 ? std::string("no tool") : fmt::format("T{}", tool.number),
-                    tool.first_line, tool.blocks, tool.time));
+                    tool.first_line, blocks_of(tool.blocks), tool.time));
   }
   return fmt::format("{}", fmt::join(texts, "; "));
 }
@@ -110,9 +121,9 @@ std::string offsets_of(const ProgramReport& report) {
 void print_figures(const std::string& file, const ProgramReport& report) {
   const runtime::ProgramFigures& figures = report.program;
   print_out(
-      "{}: {} blocks, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
+      "{}: {}, {:.3f} mm, X {:g} .. {:g}, Y {:g} .. {:g}, Z {:g} .. {:g} mm, "
       "machining time {:.3f} s\n",
-      file, figures.blocks, figures.length, figures.box_min.x(), figures.box_max.x(),
+      file, blocks_of(figures.blocks), figures.length, figures.box_min.x(), figures.box_max.x(),
       figures.box_min.y(), figures.box_max.y(), figures.box_min.z(), figures.box_max.z(),
       report.machining_time);
   print_out(
@@ -147,11 +158,14 @@ void print_notes(const std::string& file, const ProgramReport& report) {
 Expected<void> print(const std::string& file, const ProgramReport& report, Verbosity verbosity) {
   const bool is_accepted = report.errors.empty();
   const bool has_notes = verbosity == Verbosity::kNormal && !report.notes.empty();
-  if (report.errors.size() == 1 && !has_notes) {
-    return tl::unexpected(report.errors.front());
+  if (report.errors.size() == 1 && report.errors.front().count == 1 && !has_notes) {
+    return tl::unexpected(report.errors.front().error);
   }
-  for (const Error& error : report.errors) {
-    print_error(error);
+  std::int64_t count = 0;
+  for (const runtime::ProgramError& error : report.errors) {
+    print_error(to_string(error.error) +
+                (error.count > 1 ? fmt::format(" ({} times, first here)", error.count) : ""));
+    count += error.count;
   }
   if (verbosity == Verbosity::kNormal) {
     if (is_accepted) {
@@ -165,10 +179,9 @@ Expected<void> print(const std::string& file, const ProgramReport& report, Verbo
   if (is_accepted) {
     return {};
   }
-  return fail(
-      ErrorCode::kProgram,
-      fmt::format("{} is refused: {} error{}{}", file, report.errors.size(),
-                  report.errors.size() == 1 ? "" : "s", report.has_more_errors ? " or more" : ""));
+  return fail(ErrorCode::kProgram,
+              fmt::format("{} is refused: {} error{}{}", file, count, count == 1 ? "" : "s",
+                          report.has_more_errors ? " or more" : ""));
 }
 
 /// Reads one program and tells of it, on the terminal or in JSON.
@@ -187,14 +200,14 @@ Expected<void> check_one(const std::string& name, const CheckArguments& argument
   }
   ProgramReport refused;
   if (!report) {
-    refused.errors.push_back(report.error());
+    refused.errors.push_back({report.error(), 1});
   }
   Json json{{"program", name}};
   json.update(to_json(report ? *report : refused));
   programs.push_back(std::move(json));
   return report && report->errors.empty()
              ? Expected<void>()
-             : tl::unexpected(report ? report->errors.front() : report.error());
+             : tl::unexpected(report ? report->errors.front().error : report.error());
 }
 
 }  // namespace

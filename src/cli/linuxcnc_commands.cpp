@@ -15,6 +15,7 @@
 #include "config/find_file.hpp"
 #include "hal/linuxcnc/serve_plant.hpp"
 #include "hal/rig/emulator/fault.hpp"
+#include "runtime/run_options.hpp"
 #include "session/pictures.hpp"
 #include "session/report.hpp"
 #include "session/results.hpp"
@@ -137,7 +138,10 @@ Expected<void> execute(const LinuxcncEvaluateArguments& arguments, const Environ
   if (arguments.has_plots) {
     Progress progress("plots", Verbosity::kNormal);
     progress.show(0.0);
-    TWIN_CHECK(session::draw_figures({arguments.folder, program, summary.program + ", LinuxCNC"}));
+    TWIN_CHECK(session::draw_figures({.folder = arguments.folder,
+                                      .program = program,
+                                      .title = summary.program + ", LinuxCNC",
+                                      .reading = runtime::reader_options(machine, std::nullopt)}));
   }
   const std::array<std::filesystem::path, 1> folders{arguments.folder};
   const auto page = arguments.folder / session::kReportName;

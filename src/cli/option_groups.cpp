@@ -68,7 +68,7 @@ void add_reading(CLI::App& command, MachineArguments& machine) {
       ->type_name("NAME");
   command
       .add_option("--ignore-axes", machine.ignored_axes,
-                  "Leave out the words of these axes, letters of abcuvw")
+                  "Leave out the words of these axes, letters of abcuvw, and e of a 3D printer")
       ->type_name("LETTERS");
   command
       .add_option(

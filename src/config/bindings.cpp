@@ -18,7 +18,7 @@ void add_program(List& list, ProgramSettings& p) {
                   choice(p.dialect, {kDialectNames.begin(), kDialectNames.end()}), 0.0, 0.0,
                   "whose language programs are written in, where controls differ"});
   list.push_back({section, "ignored_axes", "", &p.ignored_axes, 0.0, 0.0,
-                  "letters of A B C U V W whose words are left out"});
+                  "letters of A B C E U V W whose words are left out"});
   list.push_back({section, "default_feedrate", "mm_per_min", &p.default_feedrate, 0.0, 1e5,
                   "of feed moves without an F; 0: they are refused", kPerMinute});
   list.push_back({section, "parameters", "", &p.parameters, 0.0, 0.0,

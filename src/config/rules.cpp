@@ -156,9 +156,9 @@ Expected<void> check_rules(const MachineFile& machine) {
   }
   TWIN_CHECK(check_axis_limits(l));
   const std::string& ignored = machine.program.ignored_axes;
-  if (ignored.find_first_not_of("ABCUVWabcuvw") != std::string::npos) {
+  if (ignored.find_first_not_of("ABCEUVWabceuvw") != std::string::npos) {
     return fail(ErrorCode::kFile, fmt::format("program.ignored_axes is '{}': expected letters of A "
-                                              "B C U V W",
+                                              "B C E U V W",
                                               ignored));
   }
   if (machine.path.min_segments > machine.path.max_segments) {

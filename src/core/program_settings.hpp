@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 4> kDialectNames{"auto", "linuxcnc
 /// How NC programs are read: section [program] of the machine file.
 struct ProgramSettings {
   Dialect dialect = Dialect::kAuto;
-  std::string ignored_axes;                 ///< letters of "ABCUVW" whose words are left out
+  std::string ignored_axes;                 ///< letters of "ABCEUVW" whose words are left out
   double default_feedrate = 1000.0 / 60.0;  ///< for feed moves without an F; 0: none [mm/s]
   std::string parameters;         ///< values of parameters at a program's start; empty: none
   Vec3 workpiece = Vec3::Zero();  ///< where the origin of a program's coordinates lies [mm]

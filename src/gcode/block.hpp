@@ -51,10 +51,11 @@ struct Block {
   Vec3 end = Vec3::Zero();       ///< [mm]
   geometry::Arc arc;             ///< used when motion is kArc
   std::shared_ptr<const ProgrammedCurve> nurbs;  ///< not null when motion is kNurbs
-  double feedrate = 0.0;   ///< programmed feedrate [mm/s]; 0 for kRapid and kDwell
-  double tolerance = 0.0;  ///< path tolerance of G64 P [mm]; 0: the machine's own
-  double dwell = 0.0;      ///< time at rest [s], kDwell only
-  std::int64_t line = 0;   ///< line of the program from 1; of a NURBS its first
+  double feedrate = 0.0;      ///< programmed feedrate [mm/s]; 0 for kRapid and kDwell
+  double tolerance = 0.0;     ///< path tolerance of G64 P [mm]; 0: the machine's own
+  double dwell = 0.0;         ///< time at rest [s], kDwell only
+  double program_zero = 0.0;  ///< height of the program's Z0 on the machine [mm]
+  std::int64_t line = 0;      ///< line of the program from 1; of a NURBS its first
 };
 
 }  // namespace twin::gcode

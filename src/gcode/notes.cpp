@@ -3,9 +3,9 @@
 namespace twin::gcode {
 
 std::string_view name_of(NoteKind kind) noexcept {
-  constexpr std::string_view kNames[] = {"dialect",        "feedrate", "long_dwell",
-                                         "tool",           "geometry", "ignored_axis",
-                                         "without_effect", "text",     "message"};
+  constexpr std::string_view kNames[] = {"dialect", "feedrate", "long_dwell",   "tool",
+                                         "probing", "geometry", "ignored_axis", "without_effect",
+                                         "text",    "message"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -14,6 +14,7 @@ enum class NoteKind : std::uint8_t {
   kFeedrate,       ///< a feedrate above the machine's limit, or one that was missing
   kLongDwell,      ///< a dwell of more than a minute
   kTool,           ///< tools, their lengths and radii
+  kProbing,        ///< moves that a probe would end
   kGeometry,       ///< arcs whose ends are off their circle, and the like
   kIgnoredAxis,    ///< words of axes that are left out as the user wishes
   kWithoutEffect,  ///< words that move nothing here

@@ -19,6 +19,10 @@ namespace {
 constexpr std::uint32_t kSeldomGroups =
     LineWords::groups_of(GGroup::kDwell, GGroup::kMacro, GGroup::kUnits);
 
+constexpr double kProbed = 5061.0;        // X; Y and Z follow
+constexpr double kProbedByMach = 2000.0;  // the same
+constexpr double kHasTripped = 5070.0;
+
 /// The options with the dialect that the program's text shows, of which a note is made.
 ReaderOptions with_dialect(ReaderOptions options, const ProgramText& program, Notes& notes) {
   if (options.dialect != Dialect::kAuto) {
@@ -173,7 +177,26 @@ Expected<void> Reader::Reading::execute_rest() {
   if (words_.has('F') || (blocks_.count > 0 && interpreter_.state().has_default_feedrate())) {
     note_feedrate();
   }
+  if (interpreter_.has_probed()) {
+    keep_probed();
+  }
   return {};
+}
+
+/// Puts the end of a probing move where programs look for it: #5061 to #5063, and that the probe
+/// has not tripped into #5070; Mach has #2000 to #2002.
+void Reader::Reading::keep_probed() {
+  const auto probed = interpreter_.take_probed();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    static_cast<void>(
+        parameters_.set_later(kProbed + static_cast<double>(axis), probed->place[axis], 0));
+    if (probed->is_skip && options_.dialect != Dialect::kFanuc) {
+      static_cast<void>(
+          parameters_.set_later(kProbedByMach + static_cast<double>(axis), probed->place[axis], 0));
+    }
+  }
+  static_cast<void>(parameters_.set_later(kHasTripped, 0.0, 0));
+  parameters_.commit();
 }
 
 /// Notes an F above what the machine can, and moves that have none.
@@ -209,7 +232,7 @@ void Reader::Reading::note_what_is_unusual() {
                    : "a comment within a comment ends with the outer one",
                line);
   }
-  for (const char letter : std::string_view("ABCUVW")) {
+  for (const char letter : std::string_view("ABCEUVW")) {
     if (words_.has_left_out(letter)) {
       const bool is_ignored = options_.ignored_axes.find(letter) != std::string::npos;
       notes_.add(NoteKind::kIgnoredAxis,

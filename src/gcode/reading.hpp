@@ -82,6 +82,7 @@ class Reader::Reading {
   void recover();
   void note_what_is_unusual();
   void note_feedrate();
+  void keep_probed();
   Expected<void> finish();
   tl::unexpected<Error> stop_with(Error error);
 

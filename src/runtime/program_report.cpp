@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -84,17 +85,32 @@ class ToolWatch {
   std::size_t next_ = 0;
 };
 
+/// Adds an error, or counts it if another line has had the same.
+void add_error(Error error, ProgramReport& report) {
+  const auto known =
+      std::find_if(report.errors.begin(), report.errors.end(), [&error](const ProgramError& other) {
+        return other.error.message == error.message && other.error.file == error.file;
+      });
+  if (known == report.errors.end()) {
+    report.errors.push_back({std::move(error), 1});
+  } else {
+    ++known->count;
+  }
+}
+
 /// Reads on behind an error, to find the others.
 Expected<void> collect_errors(gcode::Reader& reader, TravelCheck& check, Error first,
                               std::size_t most_errors, const std::atomic<bool>* stop,
                               ProgramReport& report) {
   std::optional<Error> error = std::move(first);
+  std::string last;
   while (true) {
     if (error) {
       if (error->code != ErrorCode::kProgram) {
         return tl::unexpected(*std::move(error));
       }
-      report.errors.push_back(*std::move(error));
+      last = to_string(*error);
+      add_error(*std::move(error), report);
       error.reset();
       if (report.errors.size() >= most_errors) {
         report.has_more_errors = true;
@@ -104,10 +120,8 @@ Expected<void> collect_errors(gcode::Reader& reader, TravelCheck& check, Error f
     TWIN_CHECK(check_wish(stop, kReportInterrupted));
     auto block = reader.next();
     if (!block && !reader.resume()) {
-      const bool is_new =
-          report.errors.empty() || to_string(report.errors.back()) != to_string(block.error());
-      if (is_new) {
-        report.errors.push_back(std::move(block).error());
+      if (to_string(block.error()) != last) {
+        add_error(std::move(block).error(), report);
       }
       return {};
     }

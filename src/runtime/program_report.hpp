@@ -31,23 +31,30 @@ struct TimeShares {
   double rest = 0.0;   ///< dwells
 };
 
+/// An error of a program, and how often the same is wrong with it.
+struct ProgramError {
+  Error error;             ///< at its first place
+  std::int64_t count = 1;  ///< lines that have it
+};
+
 /// All that a reading of a program tells, whether it can run or not.
 struct ProgramReport {
-  std::vector<Error> errors;        ///< in the order of the program; empty: it can run
-  bool has_more_errors = false;     ///< reading ended at the largest number of errors
-  std::vector<gcode::Note> notes;   ///< in the order of their kinds, then of the program
-  std::int64_t notes_left_out = 0;  ///< further different ones
-  ProgramFigures program;           ///< of what could be read
-  std::vector<ToolUse> tools;       ///< in the order of their first blocks
-  std::set<int> work_offsets;       ///< see gcode::Block::work_offset
-  double machining_time = 0.0;      ///< planned; only without errors [s]
-  TimeShares shares;                ///< of the machining time
+  std::vector<ProgramError> errors;  ///< different ones, in the order of the program; empty: it
+                                     ///< can run
+  bool has_more_errors = false;      ///< reading ended at the largest number of errors
+  std::vector<gcode::Note> notes;    ///< in the order of their kinds, then of the program
+  std::int64_t notes_left_out = 0;   ///< further different ones
+  ProgramFigures program;            ///< of what could be read
+  std::vector<ToolUse> tools;        ///< in the order of their first blocks
+  std::set<int> work_offsets;        ///< see gcode::Block::work_offset
+  double machining_time = 0.0;       ///< planned; only without errors [s]
+  TimeShares shares;                 ///< of the machining time
 };
 
 /// Reads a program to its end behind errors too, holds it against the travel, and plans it as far as
 /// it has none. Nothing moves.
 ///
-/// @param most_errors  reading ends with this many
+/// @param most_errors  reading ends with this many different ones
 /// @param stop         ends it with kInterrupted; may be null
 /// @returns an error only if the program cannot be read at all
 Expected<ProgramReport> report_program(const gcode::ProgramText& program,

@@ -65,7 +65,7 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
     }
     in_space_.add(*next);
     largest_feedrate_ = std::max(largest_feedrate_, next->feedrate);
-    rapids_.push_back(next->motion == gcode::Motion::kRapid);
+    facts_.push_back({next->motion == gcode::Motion::kRapid, next->program_zero});
     if (options_.has_machine) {
       along_z_.add(*next);
     }
@@ -73,13 +73,13 @@ Expected<void> Recorder::read_ahead(std::int64_t block) {
   return {};
 }
 
-/// Whether a block is a rapid. Numbers must not fall.
-bool Recorder::is_rapid(std::int64_t block) {
-  while (first_rapid_ < block && rapids_.size() > 1) {
-    rapids_.pop_front();
-    ++first_rapid_;
+/// Numbers must not fall.
+Recorder::BlockFacts Recorder::facts_of(std::int64_t block) {
+  while (first_fact_ < block && facts_.size() > 1) {
+    facts_.pop_front();
+    ++first_fact_;
   }
-  return !rapids_.empty() && rapids_.front();
+  return facts_.empty() ? BlockFacts{} : facts_.front();
 }
 
 /// An error with the sign of the side of the path on which the position is.
@@ -150,13 +150,16 @@ Expected<void> Recorder::record(const results::Sample& sample) {
   }
   results::Deviations deviations;
   deviations.path_length = path_length_;
-  deviations.is_rapid = is_rapid(sample.block);
+  const BlockFacts facts = facts_of(sample.block);
+  deviations.is_rapid = facts.is_rapid;
+  deviations.pen_up = facts.program_zero + results::kPenUp;
+  program_zero_.add(sample.t, facts.program_zero);
   const results::SampleErrors errors = errors_of(sample, deviations);
   const results::Place place{sample.t, sample.command, sample.line, sample.segment};
   all_.add(errors, place);
   if (!deviations.is_rapid) {
     no_rapids_.add(errors, place);
-    if (sample.command.z() <= results::kPenUp) {
+    if (sample.command.z() <= deviations.pen_up) {
       pen_down_.add(errors, place);
     }
   }
@@ -212,6 +215,7 @@ void Recorder::summarise(results::Summary& summary) {
     summary.audit_at = peaks_at_;
   }
   summary.cutting = cutting();
+  summary.program_zero = program_zero_;
   if (!options_.has_machine) {
     return;
   }

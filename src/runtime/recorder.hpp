@@ -21,6 +21,7 @@
 #include "results/trace/csv_trace.hpp"
 #include "results/trace/hdf5_trace.hpp"
 #include "results/trace/limit_writer.hpp"
+#include "results/trace/program_zero.hpp"
 #include "results/trace/trace_files.hpp"
 #include "runtime/cycle_timing.hpp"
 #include "runtime/shared_blocks.hpp"
@@ -81,7 +82,13 @@ class Recorder {
   Expected<void> commit_timing() const;
 
   Expected<void> read_ahead(std::int64_t block);
-  bool is_rapid(std::int64_t block);
+  /// What the recorder must know of a block.
+  struct BlockFacts {
+    bool is_rapid = false;
+    double program_zero = 0.0;  // [mm]
+  };
+
+  BlockFacts facts_of(std::int64_t block);
   double signed_error(double size, const Vec2& from_path) const noexcept;
   results::SampleErrors errors_of(const results::Sample& sample, results::Deviations& deviations);
   void audit(const results::Sample& sample);
@@ -92,8 +99,9 @@ class Recorder {
   BlockSource blocks_;
   bool program_ended_ = false;
   results::ColumnChoice columns_;
-  std::deque<bool> rapids_;       // whether each block is one, from first_rapid_ on
-  std::int64_t first_rapid_ = 0;  // number of the block rapids_.front()
+  std::deque<BlockFacts> facts_;  // of blocks, from first_fact_ on
+  std::int64_t first_fact_ = 0;   // number of the block facts_.front()
+  results::ProgramZero program_zero_;
   std::unique_ptr<results::CsvTrace> csv_;
   std::unique_ptr<results::Hdf5Trace> hdf5_;
   TraceSinks sinks_;

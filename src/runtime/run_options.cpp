@@ -43,7 +43,9 @@ gcode::ReaderOptions reader_options(const config::MachineFile& machine,
 }
 
 gcode::ReaderOptions reader_options(const RunRequest& request) {
-  return reader_options(request.machine, request.feedrate);
+  gcode::ReaderOptions options = reader_options(request.machine, request.feedrate);
+  options.may_probe = request.hal == nullptr || request.hal->info().simulated;
+  return options;
 }
 
 FeedControl::Options feed_options(const RunRequest& request, double first_percent) {

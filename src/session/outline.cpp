@@ -93,7 +93,8 @@ Outline read_outline(const gcode::ProgramText& program, Lifted lifted, Rapids ra
       is_apart = true;
       continue;
     }
-    if (lifted == Lifted::kLeftOut && std::min(block.start.z(), block.end.z()) > results::kPenUp) {
+    const double height = std::min(block.start.z(), block.end.z()) - block.program_zero;
+    if (lifted == Lifted::kLeftOut && height > results::kPenUp) {
       is_apart = true;
       continue;
     }

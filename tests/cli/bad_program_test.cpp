@@ -86,6 +86,17 @@ TEST_F(BadProgram, EveryErrorComesBeforeTheNotes) {
   EXPECT_LT(result.err.find("note: "), result.err.find("is refused"));
 }
 
+TEST_F(BadProgram, TheSameErrorIsToldOnceWithItsCount) {
+  folder.put("bad.nc", "G0 X1 A1\nA2\nG1 X2 Q1 F60\nX3 A4\n");
+  const auto result = twin({"check", "bad.nc"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, ::testing::HasSubstr("bad.nc:1:7: there is no axis A"));
+  EXPECT_THAT(result.err, ::testing::HasSubstr("(3 times, first here)"));
+  EXPECT_THAT(result.err, ::testing::HasSubstr("bad.nc:3:7: Q belongs"));
+  EXPECT_THAT(result.err, ::testing::Not(::testing::HasSubstr("bad.nc:2")));
+  EXPECT_THAT(result.err, ::testing::HasSubstr("bad.nc is refused: 4 errors"));
+}
+
 TEST_F(BadProgram, ParametersOfTheMachineAreGivenBySettings) {
   folder.put("bad.nc", "G00 X#<_hal[a.b-c]> F#<_hal[d]>\n");
   const auto refused = twin({"check", "bad.nc"});

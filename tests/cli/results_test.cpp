@@ -354,5 +354,18 @@ TEST_F(Results, FileThatIsNotWantedAnyMoreGoes) {
   EXPECT_TRUE(exists("out/trace.csv"));
 }
 
+TEST_F(Results, PlotsShowTheProgramWhereTheToolAndTheWorkpiecePutIt) {
+  folder.put("tools.tbl", "T1 Z12 D2\n");
+  folder.put("cut.nc", "T1 M6 G43\nG0 X1 Y0 Z5\nG1 Z0 F600\nG41 X5\nX15\nG40 G0 X20\n");
+  const auto result = twin({"plan", "cut.nc", "--out", "out", "--quiet", "--tool-table",
+                            "tools.tbl", "--offset-mm", "30,0,0"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string programmed = content(folder / "out/plots/contour_programmed.csv");
+  // From where the pen goes down to the end, a radius beside the contour.
+  EXPECT_THAT(programmed, testing::HasSubstr("\n31,0\n"));
+  EXPECT_THAT(programmed, testing::HasSubstr("\n45,1\n"));
+  EXPECT_THAT(programmed, testing::Not(testing::HasSubstr("\n0,0\n")));
+}
+
 }  // namespace results_test
 }  // namespace twin::cli

@@ -72,5 +72,13 @@ TEST(Coordinates, ParametersReadAndWriteThem) {
   EXPECT_EQ(blocks[1].end.y(), 7.0);
 }
 
+TEST(WorkOffsets, G154OfHaasIsG541) {
+  for (const std::string word : {"G54.1 P3", "G154 P3"}) {
+    const auto blocks = blocks_of(word + "\nG0 X1");
+    ASSERT_EQ(blocks.size(), 1U) << word;
+    EXPECT_EQ(blocks[0].work_offset, 11) << word;  // behind the nine of G54 to G59.3
+  }
+}
+
 }  // namespace coordinates_test
 }  // namespace twin::gcode

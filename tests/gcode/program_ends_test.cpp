@@ -71,6 +71,17 @@ TEST(ProgramEnd, ErrorComesBeforeTheBlocksOfItsOwnLine) {
             "line 1:7: G01 has no feedrate: expected an F word on this line or before it");
 }
 
+TEST(ControlCharacters, OfATransferAreLeftOutBeforeALinesWords) {
+  const std::string nul(3, '\0');
+  EXPECT_EQ(blocks_of("\x01G0 X1\n\x11X2\r\n\x1A").size(), 2U);
+  EXPECT_EQ(blocks_of("\x02%\nG0 X1\n%\n" + nul + "\n").size(), 1U);
+  EXPECT_EQ(error_of(nul + "G0 X1"), "line 1:1: byte 0x00 is not NC text: is this an NC program?");
+  EXPECT_EQ(error_of("\x02 G0 X1\nX2\x02"),
+            "line 2:3: byte 0x02 is not NC text: is this an NC program?");
+  EXPECT_EQ(error_of("\x02 G0 J"),
+            "line 1:6: J has no number: expected one before the end of the line");
+}
+
 TEST(BlockDelete, SkipsTheLineUnlessSwitchedOff) {
   const std::string text = "G0 X1\n /X2 junk\nX3";
   EXPECT_EQ(blocks_of(text).size(), 2U);

@@ -14,9 +14,9 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(Refused, CodesByNameWithTheirColumn) {
-  EXPECT_EQ(error_of("G0 X1\nG0 G38.2 X2"),
-            "line 2:4: G38.2 (probing) is not supported: there is no probe");
-  EXPECT_THAT(error_of("G33 Z1 K1"), HasSubstr("G33 (thread cutting) is not supported"));
+  EXPECT_EQ(error_of("G0 X1\nG0 G38.1 X2"),
+            "line 2:4: G38.1 (probing) is not supported: expected G38.2 to G38.5");
+  EXPECT_THAT(error_of("G32 Z1 F1"), HasSubstr("G32 (thread cutting) is not supported"));
   EXPECT_THAT(error_of("G51 X2"), HasSubstr("G51 (scaling) is not supported"));
   EXPECT_THAT(error_of("G43.4 H1"),
               HasSubstr("G43.4 (control of the tool's centre point or axis) is not supported"));
@@ -27,14 +27,21 @@ TEST(Refused, CodesByNameWithTheirColumn) {
   EXPECT_THAT(error_of("M47"), HasSubstr("M47 (the program again) is not supported"));
   EXPECT_THAT(error_of("M96 P1"), HasSubstr("M96 (interrupt by a macro) is not supported"));
   EXPECT_THAT(error_of("G87 X1"), HasSubstr("G87 (back boring) is not supported"));
-  EXPECT_THAT(error_of("G76 X1"), HasSubstr("G76 (threading or fine boring cycle)"));
+  EXPECT_THAT(error_of("G37 Z1"), HasSubstr("G37 (automatic measurement of a tool)"));
+}
+
+TEST(Refused, CornersThatTheControlWouldRound) {
+  EXPECT_EQ(error_of("G1 F1 X5 ,R2"),
+            "line 1:10: ',R' (a corner rounded or broken) is not supported: expected its moves "
+            "written out as G00 to G03");
+  EXPECT_EQ(error_of("G1 F1 X5,2"), "line 1:9: unexpected ',': expected a letter and a number");
 }
 
 TEST(Refused, CodesWithoutANameAreNotKnown) {
   EXPECT_EQ(error_of("G1.5"),
             "line 1:1: G1.5 is not known: expected G00 to G05.3, G06.2, G06.3, G08 to G10, G15 to "
-            "G21, G28, G30, G40 to G43.2, G49 to G50.1, G51.1 to G59.3, G61, G61.1, G64, G68, G69, "
-            "G73, G74, G80 to G86, G89 to G99 or G187");
+            "G21, G28, G30, G31, G33, G33.1, G38.2 to G43.2, G49 to G50.1, G51.1 to G59.3, G61, "
+            "G61.1, G64, G68, G69, G73, G74, G76, G80 to G86, G89 to G99, G103, G154 or G187");
   EXPECT_THAT(error_of("G-1"), StartsWith("line 1:1: G-1 is not known"));
   EXPECT_THAT(error_of("G61.15"), StartsWith("line 1:1: G61.15 is not known"));
   EXPECT_THAT(error_of("G1000"), StartsWith("line 1:1: G1000 is not known"));
@@ -45,7 +52,8 @@ TEST(Refused, CodesWithoutANameAreNotKnown) {
 
 TEST(Refused, EveryCodeIsEitherUnderstoodOrRefused) {
   const std::string understood_g =
-      " 0 1 2 3 4 5 5.1 5.2 5.3 6.2 6.3 8 9 10 15 16 17 18 19 20 21 28 28.1 30 30.1 40 41 41.1 42 "
+      " 0 1 2 3 4 5 5.1 5.2 5.3 6.2 6.3 8 9 10 15 16 17 18 19 20 21 28 28.1 30 30.1 31 31.1 31.2 "
+      "31.3 33 33.1 38.2 38.3 38.4 38.5 76 103 154 40 41 41.1 42 "
       "42.1 43 43.1 43.2 49 50 50.1 51.1 52 53 54 54.1 55 56 57 58 59 59.1 59.2 59.3 61 61.1 64 65 "
       "66 67 68 69 70 71 73 74 80 81 82 83 84 85 86 89 90 90.1 91 91.1 92 92.1 92.2 92.3 93 94 95 "
       "96 97 "

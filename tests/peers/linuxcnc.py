@@ -55,11 +55,12 @@ class Canon:
         self.add("linear", end, math.dist(self.at, end))
 
     def straight_probe(self, *place):
-        self.notes.add("probe")
         self.straight_feed(*place)
 
-    def rigid_tap(self, *place):
-        self.notes.add("rigid tap")
+    def rigid_tap(self, x, y, z, *rest):
+        start, end = self.at, self.to_machine((x, y, z))
+        self.add("linear", end, math.dist(start, end))
+        self.add("linear", start, math.dist(start, end))
 
     def arc_feed(self, first, second, centre_first, centre_second, turns, third, *rest):
         i, j, k = AXES[self.plane]

@@ -117,10 +117,54 @@ def arcs(rng):
     return lines
 
 
+def threading(rng):
+    """G33, G33.1 and G76, outside and in a bore, upwards and down, with tapers and spring cuts."""
+    lines = [f"G18 {rng.choice(['G20', 'G21'])} M3 S{rng.randint(50, 900)} F100"]
+    x, z = rng.uniform(5, 20), rng.uniform(-5, 5)
+    for _ in range(rng.randint(1, 3)):
+        lines.append(f"G90 G0 X{number(x)} Y{number(rng.uniform(-1, 1))} Z{number(z)}")
+        lines.append(rng.choice(["G90", "G91"]))
+        words = [f"{a}{number(rng.uniform(-12, 12))}" for a in rng.choice(["Z", "XZ", "XYZ"])]
+        kind = rng.choice(["G33", "G33.1", "G76", "G76"])
+        if kind != "G76":
+            words += [f"K{number(rng.uniform(0.1, 2))}"]
+            words += ["I1.5"] if kind == "G33.1" and rng.random() < 0.5 else []
+        else:
+            first = rng.uniform(0.05, 0.5)
+            words += [f"P{number(rng.uniform(0.2, 2))}", f"J{number(first)}",
+                      f"I{number(rng.choice([-1, 1]) * rng.uniform(0.1, 3))}",
+                      f"K{number(first + rng.uniform(0.1, 3))}"]
+            words += [f"R{number(rng.uniform(0.5, 2.5))}"] if rng.random() < 0.5 else []
+            words += [f"Q{number(rng.choice([29, 29.5, 30, rng.uniform(0, 45)]))}"] * (rng.random() < 0.6)
+            words += [f"H{rng.randint(0, 3)}"] if rng.random() < 0.5 else []
+            words += [f"E{number(rng.uniform(0.1, 2))}"] if rng.random() < 0.7 else []
+            words += [f"L{rng.randint(0, 3)}"] if rng.random() < 0.8 else []
+        lines.append(f"{kind} " + " ".join(words))
+    return lines
+
+
+def probing(rng):
+    """Probing moves that go their whole way, and what programs do with where they have ended."""
+    lines = [f"{rng.choice(['G20', 'G21'])} G0 X1 Y1 Z1 F{rng.randint(50, 900)}"]
+    axes = lambda: " ".join(f"{a}{number(rng.uniform(-9, 9))}"
+                            for a in rng.sample("XYZ", rng.randint(1, 3)))
+    for _ in range(rng.randint(2, 8)):
+        lines.append(rng.choice([
+            lambda: f"G92 {axes()}", lambda: f"G10 L20 P1 {axes()}", lambda: "G92.1",
+            lambda: rng.choice(["G90", "G91"]),
+            lambda: "G90 G1 X[#5061 + 1] Y[#5062 - 2] Z[#5063]",
+            lambda: f"G1 {axes()}",
+            lambda: f"o{len(lines)} if [#5070 EQ 0]\nG0 {axes()}\no{len(lines)} endif",
+        ])())
+        lines.append(f"G38.{rng.randint(2, 5)} {axes()}")
+        lines += [axes()] * (rng.random() < 0.3)
+    return lines
+
+
 def write(folder, count, seed):
     """Writes so many programs of each kind; returns their paths."""
     paths = []
-    for make in (drilling, coordinates, compensation, arcs):
+    for make in (drilling, coordinates, compensation, arcs, threading, probing):
         rng = random.Random(f"{make.__name__} {seed}")
         for i in range(count):
             path = folder / f"{make.__name__}_{i}.ngc"

@@ -154,6 +154,36 @@ TEST_F(RunProgram, TravelIsCheckedBeforeTheMachineIsTouched) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST_F(RunProgram, ThePenIsDownAtTheProgramsZeroWhateverTheToolsLength) {
+  const auto cutting_time = [this](const std::string& before, double length) {
+    request.program = test::text_of(
+        folder.put("tool.nc", "G0 Z20\n" + before + "\nG0 Z3\nG1 Z0 F600\nX10\nG1 Z5\nX0\n"));
+    test::FakeMachine machine;
+    const auto result = run(&machine);
+    EXPECT_TRUE(result) << to_string(result.error());
+    EXPECT_EQ(result->summary.program_zero.at(result->summary.run->machining_time), length);
+    return result->summary.cutting->time;
+  };
+  const double without = cutting_time("", 0.0);
+  EXPECT_GT(without, 1.0);
+  EXPECT_LT(without, 1.5);  // 10 mm at 10 mm/s, and not the way back above
+  EXPECT_NEAR(cutting_time("G43.1 Z12", 12.0), without, 2e-3);
+}
+
+TEST_F(RunProgram, ProbingIsRefusedBeforeARealMachineIsTouched) {
+  request.program = test::text_of(folder.put("probe.nc", "G0 X1\nG38.2 X5 F600\n"));
+  test::FakeMachine machine;
+  ASSERT_TRUE(run(&machine));
+  EXPECT_EQ(machine.activations, 1);
+  test::FakeMachine real;
+  real.be_real();
+  const auto result = run(&real);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().line, 2);
+  EXPECT_NE(result.error().message.find("would not stop on this machine"), std::string::npos);
+  EXPECT_EQ(real.activations, 0);
+}
+
 /// While it lives no file of this process grows beyond a size, as on a full disk.
 class FileSizeLimit {
  public:

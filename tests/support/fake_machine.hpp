@@ -30,6 +30,8 @@ class FakeMachine final : public hal::Machine {
   bool fails_to_activate = false;
   std::function<void(std::int64_t)> on_write;  ///< gets the number of the write, from 1
 
+  /// Its axes are real.
+  void be_real() { info_.simulated = false; }
   /// Its time passes by itself.
   void keep_own_time() { info_.keeps_own_time = true; }
 

@@ -41,7 +41,7 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
     Unit& text = unit();
     const std::int64_t offset = text.source.bytes_read();
     is_broken_ = true;  // until a line is read
-    TWIN_TRY(const auto line, text.source.next());
+    TWIN_TRY(auto line, text.source.next());
     if (!line) {
       if (frames_.size() == 1) {
         return false;
@@ -54,6 +54,8 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
       TWIN_CHECK(count_repeated_line());
     }
     is_broken_ = false;
+    const std::size_t stepped_over =
+        is_control(at_or_zero(*line, 0)) ? step_over_controls(*line) : 0;
     const bool begins_at_once = !line->empty() && !is_blank(line->front());
     const std::size_t first = begins_at_once ? 0 : line->find_first_not_of(kBlanksOfLine);
     if (first == std::string_view::npos) {
@@ -85,9 +87,26 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
         continue;
       }
     }
+    executed.stepped_over += stepped_over;
     frame_->has_words = frame_->has_words || (c != '(' && c != ';');
     return true;
   }
+}
+
+/// Takes control characters other than NUL from the front of a line: a transfer over a serial line
+/// and DOS have them around a program's text. @returns how many
+std::size_t Flow::step_over_controls(std::string_view& line) {
+  std::size_t count = 0;
+  while (count < line.size() && is_control(line[count]) && line[count] != '\x7F' &&
+         line[count] != '\0') {
+    ++count;
+  }
+  if (count > 0) {
+    notes_.add(NoteKind::kText, "control characters before a line's words are left out",
+               main_line());
+    line.remove_prefix(count);
+  }
+  return count;
 }
 
 /// Counts a line that comes again, and stops a program that reads the same lines for ever.
@@ -138,7 +157,9 @@ bool Flow::is_only_blank_behind() {
       is_blank_so_far = line.has_value();
       break;
     }
-    is_blank_so_far = (*line)->find_first_not_of(" \t\x1A") == std::string_view::npos;
+    is_blank_so_far = std::all_of((*line)->begin(), (*line)->end(), [](char c) {
+      return is_blank(c) || (is_control(c) && c != '\x7F');
+    });
   }
   source.seek(here);
   return is_blank_so_far;

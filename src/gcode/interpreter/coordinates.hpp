@@ -48,6 +48,9 @@ class Coordinates {
   Vec3 machine_of(const Vec3& program) const noexcept;
   Vec3 program_of(const Vec3& machine) const noexcept;
 
+  /// Height on the machine of the program's origin [mm].
+  double height_of_origin() const noexcept { return b_.z(); }
+
   /// True while A of (1) is the identity.
   bool is_shift_only() const noexcept { return is_shift_only_; }
   /// True while machine_of() returns what it is given.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "gcode/interpreter/line_check.hpp"
@@ -17,7 +16,8 @@ namespace {
 constexpr std::uint32_t kPrepared = LineWords::groups_of(
     GGroup::kDwell, GGroup::kPlane, GGroup::kCutterCompensation, GGroup::kToolLength,
     GGroup::kWorkOffset, GGroup::kSetting, GGroup::kScaling, GGroup::kMirror, GGroup::kRotation,
-    GGroup::kPathMode, GGroup::kSpindleMode, GGroup::kSmoothness, GGroup::kMotion);
+    GGroup::kPathMode, GGroup::kSpindleMode, GGroup::kSmoothness, GGroup::kDiameter,
+    GGroup::kMotion);
 
 constexpr std::uint32_t kOfPlainMove = LineWords::set_of("FNXYZ");
 constexpr std::uint32_t kMotionAlone = LineWords::groups_of(GGroup::kMotion);
@@ -34,7 +34,8 @@ Interpreter::Interpreter(const ReaderOptions& options, Notes& notes)
       position_(options.start),
       programmed_(set_up_.coordinates().program_of(options.start)),
       feedrate_(options.feedrate),
-      notes_(&notes) {
+      notes_(&notes),
+      may_probe_(options.may_probe) {
   state_.feedrate = state_.default_feedrate = options.default_feedrate;
   state_.is_fanuc = options.dialect == Dialect::kFanuc;
   if (options.dialect == Dialect::kGrbl || state_.is_fanuc) {
@@ -71,6 +72,7 @@ Expected<void> Interpreter::execute(const LineWords& words, std::int64_t line, L
   if (words.has_any("XYZIJKR") || (words.g_groups() & kPrepared) != 0) {
     TWIN_CHECK(add_moves(words, blocks));
   }
+  state_.leave_skip(before);
   has_pending_stop_ = words.has(MGroup::kStop, MWord::kStop);
   if (blocks.is_end) {
     TWIN_CHECK(finish_at(words.column(MGroup::kStop)));
@@ -122,7 +124,7 @@ void Interpreter::execute_plain_move(const LineWords& words, LineBlocks& blocks)
     }
   }
   add_straight(state_.motion == MotionMode::kRapid ? Motion::kRapid : Motion::kLinear,
-               coordinates().machine_of(programmed_), blocks);
+               coordinates().machine_of(programmed_), state_.feedrate, blocks);
   if (blocks.count > 0) {
     must_leave_straight_ = false;
   }
@@ -163,34 +165,6 @@ Expected<void> Interpreter::prepare(const LineWords& words, Plane plane_before,
   return {};
 }
 
-void Interpreter::note_words_without_effect(const LineWords& words) {
-  const auto note = [this](bool is_there, std::string_view text) {
-    if (is_there) {
-      notes_->add(NoteKind::kWithoutEffect, text, line_);
-    }
-  };
-  note(words.has(GGroup::kPathMode) && words.has('Q'),
-       "Q of G64 has no effect: short lines are followed within P");
-  note(words.has(GGroup::kSpindleMode), "G96 and G97 have no effect: the spindle is not modelled");
-  note(words.has(GGroup::kSmoothness), "G187 has no effect: the path tolerance is that of G64 P");
-  note((words.has(GGroup::kMotion, GWord::kCubicSpline) ||
-        words.has(GGroup::kMotion, GWord::kQuadraticSpline)) &&
-           !draws_spline(words),
-       "G05 P and G05.1 Q have no effect: look-ahead is always on");
-  if (!words.has_m()) {
-    return;
-  }
-  note(words.has(MGroup::kOverride), "M48 to M53 have no effect: overrides are the operator's");
-  note(words.has(MGroup::kInputOutput),
-       "M62 to M68 have no effect: there are no inputs and outputs");
-  note(words.has(MGroup::kClamp), "M10 and M11 have no effect: there are no clamps");
-  if (words.has(MGroup::kMachineFunction)) {
-    note(true, fmt::format("M{:g} has no effect: it is a function of the machine's builder",
-                           words.m_number(MGroup::kMachineFunction)));
-  }
-  note(words.has(MGroup::kUserCommand), "M100 to M199 have no effect: no program is started");
-}
-
 Expected<void> Interpreter::change_compensation(const LineWords& words) {
   const int column = words.column(GGroup::kCutterCompensation);
   if (words.g(GGroup::kCutterCompensation) == GWord::kNoCutterCompensation) {
@@ -217,13 +191,7 @@ Expected<void> Interpreter::add_moves(const LineWords& words, LineBlocks& blocks
     return add_home(words, blocks);
   }
   if (!asks_for_move(words, state_)) {
-    if (state_.motion == MotionMode::kCycle &&
-        (words.has_any("RLK") || words.has(GGroup::kMotion)) && !words.has(GGroup::kSetting)) {
-      return fail_at(
-          words.has(GGroup::kMotion) ? words.column(GGroup::kMotion) : words.first_column("RLK"),
-          "a canned cycle without a place: expected X, Y or Z on its line");
-    }
-    return {};
+    return check_place(words);
   }
   if (draws_spline(words)) {
     return add_spline(words, blocks);
@@ -235,7 +203,37 @@ Expected<void> Interpreter::add_moves(const LineWords& words, LineBlocks& blocks
                      "G53 moves in machine coordinates: expected G00 or G01, G90 and G40");
     }
   }
-  return state_.motion == MotionMode::kCycle ? start_cycle(words) : add_move(words, blocks);
+  if (state_.motion == MotionMode::kCycle) {
+    return start_cycle(words);
+  }
+  if (state_.is_threading()) {
+    return add_threading(words, blocks);
+  }
+  if (!state_.is_probing()) {
+    return add_move(words, blocks);
+  }
+  TWIN_CHECK(check_probing(words));
+  TWIN_CHECK(add_move(words, blocks));
+  keep_probed();
+  return {};
+}
+
+/// Whether a line without X, Y and Z has no word that needs them.
+Expected<void> Interpreter::check_place(const LineWords& words) const {
+  if (words.has(GGroup::kSetting)) {
+    return {};
+  }
+  const bool has_motion = words.has(GGroup::kMotion);
+  if (state_.motion == MotionMode::kCycle && (words.has_any("RLK") || has_motion)) {
+    return fail_at(has_motion ? words.column(GGroup::kMotion) : words.first_column("RLK"),
+                   "a canned cycle without a place: expected X, Y or Z on its line");
+  }
+  if (has_motion && (state_.is_probing() || state_.is_threading())) {
+    return fail_at(words.column(GGroup::kMotion),
+                   fmt::format("G{:g} leads nowhere: expected X, Y or Z on its line",
+                               words.g_number(GGroup::kMotion)));
+  }
+  return {};
 }
 
 Expected<void> Interpreter::start_cycle(const LineWords& words) {
@@ -269,10 +267,18 @@ void Interpreter::fill(LineBlocks& blocks) {
     } else {
       programmed_ = move->place;
       add_straight(move->kind == CycleMove::Kind::kRapid ? Motion::kRapid : Motion::kLinear,
-                   coordinates().machine_of(programmed_), blocks);
+                   coordinates().machine_of(programmed_), state_.feedrate, blocks);
     }
   }
-  const bool is_rest_done = cycle_.is_done() && next_waiting_ == waiting_.size();
+  while (!threading_.is_done() && blocks.count < blocks.block.size()) {
+    if (const auto move = threading_.next()) {
+      programmed_ = move->place;
+      add_straight(move->feedrate > 0.0 ? Motion::kLinear : Motion::kRapid,
+                   coordinates().machine_of(programmed_), move->feedrate, blocks);
+    }
+  }
+  const bool is_rest_done =
+      cycle_.is_done() && threading_.is_done() && next_waiting_ == waiting_.size();
   if (has_pending_stop_ && is_rest_done && blocks.count < blocks.block.size()) {
     has_pending_stop_ = false;
     add_rest(0.0, blocks);
@@ -292,6 +298,7 @@ Block& Interpreter::next_block(LineBlocks& blocks, Motion motion) const {
   block.feedrate = 0.0;
   block.tolerance = state_.tolerance;
   block.dwell = 0.0;
+  block.program_zero = coordinates().height_of_origin();
   block.line = line_;
   block.tool = set_up_.tool();
   block.work_offset = static_cast<std::int16_t>(coordinates().selected());
@@ -318,10 +325,11 @@ void Interpreter::add_rest(double duration, LineBlocks& blocks) {
 }
 
 /// A rapid or a feed move along a line to a place on the machine; none if it has no length.
-void Interpreter::add_straight(Motion motion, const Vec3& end, LineBlocks& blocks) {
+void Interpreter::add_straight(Motion motion, const Vec3& end, double feedrate,
+                               LineBlocks& blocks) {
   Block& block = next_block(blocks, motion);
   block.end = end;
-  block.feedrate = motion == Motion::kRapid ? 0.0 : state_.feedrate;
+  block.feedrate = motion == Motion::kRapid ? 0.0 : feedrate;
   if ((block.end - block.start).squaredNorm() >= kNoLength * kNoLength) {
     keep(blocks);
     position_ = end;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -15,6 +16,7 @@
 #include "gcode/interpreter/modal_state.hpp"
 #include "gcode/interpreter/nurbs_collector.hpp"
 #include "gcode/interpreter/set_up.hpp"
+#include "gcode/interpreter/threading_cycle.hpp"
 #include "gcode/reader_options.hpp"
 
 namespace twin::gcode {
@@ -38,6 +40,12 @@ struct SavedState {
   Vec3 tool_offset = Vec3::Zero();  ///< [mm]
 };
 
+/// Where a probing move has ended, in the coordinates and units of the program.
+struct Probed {
+  Vec3 place = Vec3::Zero();
+  bool is_skip = false;  ///< by G31
+};
+
 /// Turns the words of line after line into blocks; holds the modal state and the position.
 ///
 /// Within a line the order of words does not matter; what it asks for is done in the order of
@@ -59,7 +67,8 @@ class Interpreter {
 
   /// Whether the line last executed has further blocks, which more() gives.
   bool has_more() const noexcept {
-    return !cycle_.is_done() || next_waiting_ < waiting_.size() || has_pending_stop_;
+    return !cycle_.is_done() || !threading_.is_done() || next_waiting_ < waiting_.size() ||
+           has_pending_stop_;
   }
   /// Replaces the blocks by the next ones of the line.
   void more(LineBlocks& blocks);
@@ -79,6 +88,10 @@ class Interpreter {
   /// @param is_whole  whether the line's words say where it leads
   void recover(const LineWords& words, bool is_whole);
 
+  /// Where the probing move of the line last executed has ended, if it had one; told once.
+  bool has_probed() const noexcept { return probed_.has_value(); }
+  std::optional<Probed> take_probed() { return std::exchange(probed_, std::nullopt); }
+
   const ModalState& state() const noexcept { return state_; }
   /// Where the words have led, in the coordinates of the program [mm].
   const Vec3& position() const noexcept { return programmed_; }
@@ -96,6 +109,10 @@ class Interpreter {
   Expected<void> add_home(const LineWords& words, LineBlocks& blocks);
   Expected<void> add_spline(const LineWords& words, LineBlocks& blocks);
   Expected<void> start_cycle(const LineWords& words);
+  Expected<void> check_place(const LineWords& words) const;
+  Expected<void> check_probing(const LineWords& words);
+  void keep_probed();
+  Expected<void> add_threading(const LineWords& words, LineBlocks& blocks);
   Expected<void> shape_arc(const LineWords& words, const Vec3& from, Block& block);
   Expected<ProgrammedArc> arc_of_words(const LineWords& words, const Vec3& from,
                                        const ArcEnds& ends);
@@ -116,7 +133,7 @@ class Interpreter {
   Block& next_block(LineBlocks& blocks, Motion motion) const;
   void keep(LineBlocks& blocks);
   void add_rest(double duration, LineBlocks& blocks);
-  void add_straight(Motion motion, const Vec3& end, LineBlocks& blocks);
+  void add_straight(Motion motion, const Vec3& end, double feedrate, LineBlocks& blocks);
   Expected<void> compensate(int column, LineBlocks& blocks);
   void fill(LineBlocks& blocks);
   const Coordinates& coordinates() const noexcept { return set_up_.coordinates(); }
@@ -131,7 +148,10 @@ class Interpreter {
   bool stops_once_ = false;  // G09 on this line
   NurbsCollector nurbs_;
   CycleWords cycle_words_;
-  DrillingCycle cycle_;  // of this line
+  DrillingCycle cycle_;       // of this line
+  ThreadingCycle threading_;  // of this line
+  bool may_probe_;
+  std::optional<Probed> probed_;
   bool has_pending_stop_ = false;
   CutterCompensation compensation_;
   bool must_leave_straight_ = false;  // behind G40

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "gcode/interpreter/line_letters.hpp"
 #include "gcode/interpreter/modal_state.hpp"
 #include "gcode/notes.hpp"
 #include "gcode/text/fault.hpp"
@@ -28,6 +29,9 @@ std::string_view name_of(const ModalState& state) {
       return "G03";
     case MotionMode::kCycle:
       return "the canned cycle";
+    case MotionMode::kProbe:
+    case MotionMode::kSkip:
+      return "the probing move";
     default:
       return "G00";
   }
@@ -51,103 +55,6 @@ PlaneWords words_of(Plane plane) {
   }
 }
 
-/// Letters that the motion in force takes besides X Y Z.
-std::uint32_t letters_of_motion(const LineWords& words, const ModalState& state) {
-  if (words.has(GGroup::kMotion)) {
-    switch (words.g(GGroup::kMotion)) {
-      case GWord::kCubicSpline:
-        return LineWords::set_of("IJPQ");
-      case GWord::kQuadraticSpline:
-        return LineWords::set_of("IJQ");
-      default:
-        break;
-    }
-  }
-  if (state.is_arc()) {
-    return LineWords::set_of("IJKRP");
-  }
-  if (state.motion != MotionMode::kCycle) {
-    return 0;
-  }
-  const std::uint32_t every = LineWords::set_of("RLK");
-  switch (state.cycle) {
-    case GWord::kChipBreak:
-    case GWord::kPeckDrill:
-      return every | LineWords::set_of("Q");
-    case GWord::kTapLeft:
-    case GWord::kTapRight:
-    case GWord::kDrillDwell:
-    case GWord::kBoreRapidOut:
-    case GWord::kBoreDwell:
-      return every | LineWords::set_of("P");
-    default:
-      return every;
-  }
-}
-
-std::uint32_t letters_of_setting(GWord word) {
-  switch (word) {
-    case GWord::kSetOffsets:
-      return LineWords::set_of("PLRIJQ");
-    case GWord::kSecondHome:
-      return LineWords::set_of("P");
-    default:
-      return 0;
-  }
-}
-
-std::uint32_t letters_of_g(const LineWords& words) {
-  std::uint32_t taken = 0;
-  if (words.has(GGroup::kDwell)) {
-    taken |= LineWords::set_of("P");
-  }
-  if (words.has(GGroup::kPathMode, GWord::kContinuous)) {
-    taken |= LineWords::set_of("PQ");
-  }
-  if (words.has(GGroup::kSetting)) {
-    taken |= letters_of_setting(words.g(GGroup::kSetting));
-  }
-  if (words.has(GGroup::kToolLength)) {
-    taken |= LineWords::set_of("H");
-  }
-  if (words.has(GGroup::kCutterCompensation)) {
-    taken |= LineWords::set_of("DL");
-  }
-  if (words.has(GGroup::kSpindleMode)) {
-    taken |= LineWords::set_of("D");
-  }
-  if (words.has(GGroup::kWorkOffset, GWord::kExtendedWorkOffset)) {
-    taken |= LineWords::set_of("P");
-  }
-  if (words.has(GGroup::kRotation, GWord::kRotation)) {
-    taken |= LineWords::set_of("R");
-  }
-  if (words.has(GGroup::kSmoothness)) {
-    taken |= LineWords::set_of("PE");
-  }
-  return taken;
-}
-
-std::uint32_t letters_of_m(const LineWords& words) {
-  std::uint32_t taken = 0;
-  if (words.has(MGroup::kInputOutput)) {
-    taken |= LineWords::set_of("PQEL");
-  }
-  if (words.has(MGroup::kOverride)) {
-    taken |= LineWords::set_of("P");
-  }
-  if (words.has(MGroup::kSpindle)) {
-    taken |= LineWords::set_of("RPQ");
-  }
-  if (words.has(MGroup::kUserCommand) || words.has(MGroup::kMachineFunction)) {
-    taken |= LineWords::set_of("PQRLED");
-  }
-  if (words.has(MGroup::kToolChange, MWord::kToolNumber)) {
-    taken |= LineWords::set_of("Q");
-  }
-  return taken;
-}
-
 std::string nothing_uses(char letter) {
   switch (letter) {
     case 'I':
@@ -159,6 +66,8 @@ std::string nothing_uses(char letter) {
       return "L (repeat count, or order of a NURBS) needs G05.2 on its line";
     case 'P':
       return "P needs G04 or G64 on its line";
+    case 'E':
+      return "E (a 3D printer's extruder) moves nothing here: --ignore-axes e leaves its words out";
     default:
       return fmt::format("{} belongs to no word of its line", letter);
   }
@@ -167,8 +76,7 @@ std::string nothing_uses(char letter) {
 /// Looks for letters that nothing on the line uses.
 Expected<void> check_letters(const LineWords& words, const ModalState& state, Notes& notes,
                              std::int64_t line) {
-  const std::uint32_t left = words.letters() & ~kPlain & ~letters_of_motion(words, state) &
-                             ~letters_of_g(words) & ~letters_of_m(words);
+  const std::uint32_t left = words.letters() & ~kPlain & ~letters_taken(words, state);
   if (left == 0) {
     return {};
   }
@@ -362,10 +270,9 @@ Expected<void> check_words(const LineWords& words, const ModalState& state, bool
     return fail_at(words.first_column(kAxisWords),
                    "a place to go to, but no motion in force: expected G00, G01, G02 or G03");
   }
-  if (state.motion != MotionMode::kRapid) {
-    return check_feedrate(words, state, has_own_feedrate);
-  }
-  return {};
+  return state.motion == MotionMode::kRapid || state.is_threading()
+             ? Expected<void>()
+             : check_feedrate(words, state, has_own_feedrate);
 }
 
 }  // namespace twin::gcode

@@ -22,6 +22,16 @@ MotionMode motion_of(GWord word) {
       return MotionMode::kNurbs;
     case GWord::kKnotNurbs:
       return MotionMode::kKnotNurbs;
+    case GWord::kProbe:
+      return MotionMode::kProbe;
+    case GWord::kSkip:
+      return MotionMode::kSkip;
+    case GWord::kThread:
+      return MotionMode::kThread;
+    case GWord::kRigidTap:
+      return MotionMode::kRigidTap;
+    case GWord::kThreadCycle:
+      return MotionMode::kThreadCycle;
     case GWord::kChipBreak:
     case GWord::kTapLeft:
     case GWord::kDrill:
@@ -116,6 +126,11 @@ void update_seldom(ModalState& state, const LineWords& words) {
   }
 }
 
+/// True for the motions of G00 to G03.
+bool is_line_or_arc(MotionMode motion) {
+  return motion >= MotionMode::kRapid && motion <= MotionMode::kArcCounterClockwise;
+}
+
 /// G05 and G05.1 of one line draw a curve; with P or Q alone they are FANUC's wish to look ahead.
 void update_motion(ModalState& state, const LineWords& words) {
   const GWord word = words.g(GGroup::kMotion);
@@ -125,8 +140,7 @@ void update_motion(ModalState& state, const LineWords& words) {
     }
     return;
   }
-  if (state.is_fanuc && state.motion != MotionMode::kCycle && state.motion != MotionMode::kNone &&
-      !state.is_nurbs()) {
+  if (state.is_fanuc && is_line_or_arc(state.motion)) {
     state.behind_cycle = state.motion;
   }
   state.motion = word == GWord::kCancelMotion ? state.behind_cycle : motion_of(word);
@@ -134,6 +148,13 @@ void update_motion(ModalState& state, const LineWords& words) {
 }
 
 }  // namespace
+
+/// FANUC's G31 leaves the motion before it in force; of Mach that is not known.
+void ModalState::leave_skip(MotionMode before) noexcept {
+  if (motion == MotionMode::kSkip) {
+    motion = is_fanuc && is_line_or_arc(before) ? before : MotionMode::kNone;
+  }
+}
 
 void update(ModalState& state, const LineWords& words, const std::optional<double>& feedrate) {
   if (words.has(GGroup::kUnits)) {

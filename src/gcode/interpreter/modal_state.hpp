@@ -16,9 +16,14 @@ enum class MotionMode : std::uint8_t {
   kLinear,
   kArcClockwise,
   kArcCounterClockwise,
-  kNurbs,      ///< G05.2, until G05.3
-  kKnotNurbs,  ///< G06.2; stays in force behind the curve's last knot
-  kCycle,      ///< a canned cycle, G73 to G89
+  kNurbs,        ///< G05.2, until G05.3
+  kKnotNurbs,    ///< G06.2; stays in force behind the curve's last knot
+  kCycle,        ///< a canned cycle, G73 to G89
+  kProbe,        ///< G38.2 to G38.5
+  kSkip,         ///< G31, on its own line only
+  kThread,       ///< G33
+  kRigidTap,     ///< G33.1
+  kThreadCycle,  ///< G76
 };
 
 /// Plane of arcs, named by its axes in right-handed order: the third axis is their cross product.
@@ -34,7 +39,7 @@ enum class FeedMode : std::uint8_t {
 /// What stays in force from line to line.
 struct ModalState {
   MotionMode motion = MotionMode::kNone;
-  GWord cycle = GWord::kCancelMotion;  ///< which, while motion is kCycle
+  GWord cycle = GWord::kCancelMotion;  ///< word that has set the motion
   /// What G80 leaves in force: with FANUC the last of G00 to G03, elsewhere nothing.
   MotionMode behind_cycle = MotionMode::kNone;
   bool is_fanuc = false;
@@ -66,6 +71,13 @@ struct ModalState {
   bool is_arc() const noexcept {
     return motion == MotionMode::kArcClockwise || motion == MotionMode::kArcCounterClockwise;
   }
+  bool is_probing() const noexcept {
+    return motion == MotionMode::kProbe || motion == MotionMode::kSkip;
+  }
+  /// True for moves whose feedrate is a lead times the speed of the spindle.
+  bool is_threading() const noexcept { return motion >= MotionMode::kThread; }
+  /// Ends a motion that is in force on its own line only. @param before  that of the line before
+  void leave_skip(MotionMode before) noexcept;
 };
 
 /// Brings the state up to date with a line, whatever the order of its words.

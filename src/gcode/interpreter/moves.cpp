@@ -230,13 +230,13 @@ Expected<void> Interpreter::add_home(const LineWords& words, LineBlocks& blocks)
   Vec3 goal = home;
   if (words.has_any("XYZ")) {
     TWIN_TRY(programmed_, target(words));
-    add_straight(Motion::kRapid, coordinates().machine_of(programmed_), blocks);
+    add_straight(Motion::kRapid, coordinates().machine_of(programmed_), 0.0, blocks);
     goal = position_;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       goal[axis] = words.has("XYZ"[axis]) ? home[axis] : goal[axis];
     }
   }
-  add_straight(Motion::kRapid, goal, blocks);
+  add_straight(Motion::kRapid, goal, 0.0, blocks);
   programmed_ = coordinates().program_of(goal);
   return {};
 }

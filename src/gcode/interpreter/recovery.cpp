@@ -33,7 +33,9 @@ void Interpreter::restore(const SavedState& saved) {
 
 void Interpreter::recover(const LineWords& words, bool is_whole) {
   update(state_, words, feedrate_);
+  state_.leave_skip(MotionMode::kLinear);
   cycle_ = DrillingCycle();
+  threading_ = ThreadingCycle();
   waiting_.clear();
   next_waiting_ = 0;
   has_pending_stop_ = must_leave_straight_ = false;

@@ -69,7 +69,7 @@ std::optional<DialectSign> sign_in(std::string_view text) {
   if (text.starts_with("WHILE[")) {
     return found(Dialect::kFanuc, "WHILE");
   }
-  for (const std::string_view word : {"G65", "G66", "G05.1", "G5.1Q", "G54.1"}) {
+  for (const std::string_view word : {"G65", "G66", "G05.1", "G5.1Q", "G54.1", "G154"}) {
     if (has_word(text, word)) {
       return found(Dialect::kFanuc, word);
     }

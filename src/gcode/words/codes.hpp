@@ -21,6 +21,11 @@ enum class GWord : std::uint8_t {
   kNurbsEnd,              ///< G05.3
   kKnotNurbs,             ///< G06.2
   kKnotNurbsEnd,          ///< G06.3
+  kProbe,                 ///< G38.2 to G38.5
+  kSkip,                  ///< G31, G31.1 to G31.3 of FANUC and Mach: a probing move, not modal
+  kThread,                ///< G33
+  kRigidTap,              ///< G33.1
+  kThreadCycle,           ///< G76, LinuxCNC's
   kCancelMotion,          ///< G80
   kChipBreak,             ///< G73
   kTapLeft,               ///< G74
@@ -67,7 +72,7 @@ enum class GWord : std::uint8_t {
   kMoreToolOffset,        ///< G43.2
   kNoToolLength,          ///< G49
   kWorkOffset,            ///< G54 to G59.3, by their number
-  kExtendedWorkOffset,    ///< G54.1
+  kExtendedWorkOffset,    ///< G54.1, G154 of Haas
   kInverseTime,           ///< G93
   kFeedPerMinute,         ///< G94
   kFeedPerRevolution,     ///< G95
@@ -84,6 +89,7 @@ enum class GWord : std::uint8_t {
   kNoRotation,            ///< G69
   kRadiusMode,            ///< G08 of lathes: X is a radius, as it is anyway
   kSmoothness,            ///< G187: a wish about smoothness that changes no move
+  kLookAheadLimit,        ///< G103 of Haas: blocks that are read ahead
   kMacroCall,             ///< G65, FANUC: a subprogram with arguments
   kModalMacroCall,        ///< G66: the same behind every move
   kNoMacroCall,           ///< G67

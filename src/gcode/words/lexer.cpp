@@ -177,6 +177,12 @@ tl::unexpected<Error> Lexer::unexpected_character() const {
   if (c == '/') {
     return fail_at(column(), "'/' (block delete) must be the first character of its line");
   }
+  if (const char next = upper(at_or_zero(line_, at_ + 1));
+      c == ',' && (next == 'R' || next == 'C')) {
+    return fail_at(column(), fmt::format("',{}' (a corner rounded or broken) is not supported: "
+                                         "expected its moves written out as G00 to G03",
+                                         next));
+  }
   return fail_at(column(), fmt::format("unexpected '{}': expected a letter and a number", c));
 }
 

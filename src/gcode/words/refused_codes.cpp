@@ -27,9 +27,10 @@ constexpr Refused kRefusedG[] = {
     {10.1, 10.9, "setting of data", "expected G10 with L1, L2, L10, L11 or L20"},
     {12.0, 13.9, "circular pocket or polar interpolation", kWriteOut},
     {17.1, 19.1, "plane of a rotary or parallel axis", "expected G17, G18 or G19"},
-    {31.0, 31.9, "probing", "there is no probe"},
-    {32.0, 33.9, "thread cutting", "the spindle is not coupled to the axes"},
-    {38.0, 38.9, "probing", "there is no probe"},
+    {31.4, 31.9, "probing", "expected G31 or G38.2 to G38.5"},
+    {32.0, 34.9, "thread cutting", "expected G33 with K, its lead"},
+    {36.0, 37.9, "automatic measurement of a tool", "there is no sensor of tools"},
+    {38.0, 38.9, "probing", "expected G38.2 to G38.5"},
     {43.3, 43.9, "control of the tool's centre point or axis", "there are no rotary axes"},
     {44.0, 44.9, "tool length compensation, minus", "expected G43 and a negative length"},
     {51.0, 51.0, "scaling", "controls do not agree on its factors; expected full size"},
@@ -39,10 +40,14 @@ constexpr Refused kRefusedG[] = {
     {62.0, 63.0, "corner override or tapping mode", "expected G61 or G64"},
     {68.1, 68.9, "tilted plane", "there are no rotary axes"},
     {70.1, 72.9, "lathe cycle", "expected a program for a mill"},
-    {76.0, 76.9, "threading or fine boring cycle", kWriteOut},
+    {76.1, 76.9, "threading cycle", kWriteOut},
     {75.0, 79.0, "canned cycle", kWriteOut},
     {87.0, 87.0, "back boring", "controls do not agree on its moves; expected them written out"},
     {88.0, 88.0, "boring with manual exit", "nobody moves the axes by hand; expected G85 or G89"},
+    {100.0, 101.0, "mirror image of Haas", "expected G51.1 and G50.1"},
+    {110.0, 129.9, "work offset or polar coordinates, as the control has it",
+     "expected G54 to G59.3, G54.1 or G154 P"},
+    {150.0, 150.9, "pocket", kWriteOut},
 };
 
 constexpr Refused kRefusedM[] = {
@@ -71,9 +76,9 @@ std::string refused(char letter, double number, std::span<const Refused> table,
 std::string refused_g(double number) {
   return refused(
       'G', number, kRefusedG,
-      "G00 to G05.3, G06.2, G06.3, G08 to G10, G15 to G21, G28, G30, G40 to G43.2, G49 to "
-      "G50.1, G51.1 to G59.3, G61, G61.1, G64, G68, G69, G73, G74, G80 to G86, G89 to "
-      "G99 or G187");
+      "G00 to G05.3, G06.2, G06.3, G08 to G10, G15 to G21, G28, G30, G31, G33, G33.1, G38.2 to "
+      "G43.2, G49 to G50.1, G51.1 to G59.3, G61, G61.1, G64, G68, G69, G73, G74, G76, G80 to G86, "
+      "G89 to G99, G103, G154 or G187");
 }
 
 std::string refused_m(double number) {
@@ -88,7 +93,10 @@ std::string refused_letter(char letter) {
     case 'U':
     case 'V':
     case 'W':
-      return fmt::format("there is no axis {}: only X, Y and Z move", letter);
+      return fmt::format(
+          "there is no axis {}: only X, Y and Z move; --ignore-axes {} leaves its "
+          "words out",
+          letter, static_cast<char>(letter - 'A' + 'a'));
     case 'O':
       return "O (program number or subprogram) is not supported: expected one program without it";
     default:

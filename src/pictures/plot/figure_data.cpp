@@ -43,6 +43,7 @@ enum Field : std::size_t {
   kErrorX,
   kErrorY,
   kRms,
+  kPenHeight,
   kFields
 };
 constexpr std::size_t kPlanInputs = kFeedrate + 1;
@@ -61,7 +62,8 @@ constexpr std::array<std::string_view, kFields> kFieldNames{"t_s",
                                                             "jerk_mm_per_s3",
                                                             "x_error_um",
                                                             "y_error_um",
-                                                            "contour_error_rms_um"};
+                                                            "contour_error_rms_um",
+                                                            "pen_height_mm"};
 
 using Record = std::array<double, kFields>;
 
@@ -89,7 +91,7 @@ class FigureTable {
   std::vector<std::size_t> watched() const {  // all but time and height
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (fields_[i] != kT && fields_[i] != kZ) {
+      if (fields_[i] != kT && fields_[i] != kPenHeight) {
         result.push_back(i);
       }
     }
@@ -107,11 +109,12 @@ std::vector<FigureTable> tables_of(bool plan_only) {
   tables.emplace_back("feedrate", std::vector<std::size_t>{kT, kFeedrate});
   tables.emplace_back("acceleration_jerk", std::vector<std::size_t>{kT, kAcceleration, kJerk});
   if (plan_only) {
-    tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kZ});
+    tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kPenHeight});
     return tables;
   }
-  tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kZ, kEncX, kEncY, kRms});
-  tables.emplace_back("contour_magnified", std::vector<std::size_t>{kX, kY, kZ, kErrorX, kErrorY});
+  tables.emplace_back("contour", std::vector<std::size_t>{kX, kY, kPenHeight, kEncX, kEncY, kRms});
+  tables.emplace_back("contour_magnified",
+                      std::vector<std::size_t>{kX, kY, kPenHeight, kErrorX, kErrorY});
   tables.emplace_back("contour_error", std::vector<std::size_t>{kT, kContour, kRms});
   tables.emplace_back("tracking_errors", std::vector<std::size_t>{kT, kTrackX, kTrackY});
   return tables;
@@ -121,7 +124,8 @@ std::vector<FigureTable> tables_of(bool plan_only) {
 /// tables.
 class Stream {
  public:
-  explicit Stream(bool plan_only) : plan_only_(plan_only), tables_(tables_of(plan_only)) {}
+  Stream(const results::ProgramZero& zero, bool plan_only)
+      : zero_(zero), plan_only_(plan_only), tables_(tables_of(plan_only)) {}
 
   /// @returns false when time does not ascend
   bool push(const Record& record) {
@@ -165,6 +169,7 @@ class Stream {
     const Record& next = pending_.size() > 1 ? pending_[1] : record;
     record[kAcceleration] = motion->acceleration;
     record[kJerk] = motion->jerk;
+    record[kPenHeight] = record[kZ] - zero_.at(record[kT]);
     const Vec2 here(record[kX], record[kY]);
     if (!plan_only_) {
       const Vec2 error = normal_error({last_[kX], last_[kY]}, here, {next[kX], next[kY]},
@@ -174,14 +179,14 @@ class Stream {
       summary_.largest_error_um =
           std::max(summary_.largest_error_um, units::um_from_mm(error.norm()));
       record[kRms] = rms_of(record[kT], record[kContour]);
-      if (record[kContour] > summary_.worst_um && record[kZ] <= results::kPenUp) {
+      if (record[kContour] > summary_.worst_um && record[kPenHeight] <= results::kPenUp) {
         summary_.worst_um = record[kContour];
         summary_.worst_at = {record[kEncX], record[kEncY]};
       }
     }
     low_ = low_.cwiseMin(here);
     high_ = high_.cwiseMax(here);
-    (record[kZ] > results::kPenUp ? lifted_ : lowered_) = true;
+    (record[kPenHeight] > results::kPenUp ? lifted_ : lowered_) = true;
     for (FigureTable& table : tables_) {
       table.push(record);
     }
@@ -200,6 +205,7 @@ class Stream {
     return std::sqrt(std::max(sum_, 0.0) / static_cast<double>(squares_.size()));
   }
 
+  const results::ProgramZero& zero_;
   bool plan_only_;
   std::vector<FigureTable> tables_;
   std::deque<std::array<double, 2>> squares_;  // time and square, of the last kRmsTime
@@ -227,11 +233,12 @@ Expected<void> save_programmed(const std::filesystem::path& folder, std::span<co
 
 Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
                                         const std::filesystem::path& folder,
-                                        std::span<const Vec2> programmed, bool plan_only) {
+                                        std::span<const Vec2> programmed,
+                                        const results::ProgramZero& zero, bool plan_only) {
   TWIN_TRY(results::TraceReader reader, results::TraceReader::open(trace));
   const std::size_t inputs = plan_only ? kPlanInputs : kRunInputs;
   TWIN_CHECK(reader.select(std::span(kFieldNames).first(inputs)));
-  Stream stream(plan_only);
+  Stream stream(zero, plan_only);
   Record record{};
   for (;;) {
     TWIN_TRY(const bool has_row, reader.next(std::span(record).first(inputs)));

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "results/trace/program_zero.hpp"
 
 namespace twin::pictures {
 
@@ -26,9 +27,11 @@ struct DataSummary {
 /// @param trace       trace.csv
 /// @param folder      existing folder for the data
 /// @param programmed  programmed path [mm], may be empty
+/// @param zero        height of the program's Z0
 /// @param plan_only   the trace has the columns of a plan alone
 Expected<DataSummary> write_figure_data(const std::filesystem::path& trace,
                                         const std::filesystem::path& folder,
-                                        std::span<const Vec2> programmed, bool plan_only);
+                                        std::span<const Vec2> programmed,
+                                        const results::ProgramZero& zero, bool plan_only);
 
 }  // namespace twin::pictures

@@ -109,8 +109,10 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
   if (error) {
     return file_error(folder, "create", error.value());
   }
-  TWIN_TRY(DataSummary data, write_figure_data(input.directory / input.trace, folder,
-                                               input.programmed, input.plan_only));
+  TWIN_TRY(DataSummary data,
+           write_figure_data(input.directory / input.trace, folder, input.programmed,
+                             results::ProgramZero::beside(input.directory / input.trace),
+                             input.plan_only));
   const RunOrigin origin = read_run_origin(input.directory / (results::is_partial_trace(input.trace)
                                                                   ? "summary.partial.json"
                                                                   : "summary.json"));

@@ -142,8 +142,8 @@ std::string background(const DataSummary& data) {
 
 std::string pen_functions(const DataSummary& data) {
   return data.has_pen_up ? fmt::format(
-                               "up(x) = column('z_cmd_mm') > {0} ? x : NaN\n"
-                               "down(x) = column('z_cmd_mm') > {0} ? NaN : x\n",
+                               "up(x) = column('pen_height_mm') > {0} ? x : NaN\n"
+                               "down(x) = column('pen_height_mm') > {0} ? NaN : x\n",
                                results::kPenUp)
                          : "down(x) = x\n";
 }

@@ -38,6 +38,7 @@ Expected<TraceRows> TraceRows::open(const std::filesystem::path& trace_csv) {
     return tl::unexpected(std::move(chosen.error()));
   }
   TraceRows rows(std::move(*reader));
+  rows.zero_ = results::ProgramZero::beside(trace_csv);
   rows.has_error_ = is_run;
   rows.has_commanded_ = has_commanded;
   return rows;
@@ -49,7 +50,7 @@ Expected<bool> TraceRows::next(TraceRow& row) {
                                              : has_error_   ? kOfRun
                                                             : kOfPlan));
   if (got && *got) {
-    row = {v[0], v[1], {v[2], v[3], v[4]}, v[5], v[6], {v[2], v[3]}};
+    row = {v[0], v[1], {v[2], v[3], v[4] - zero_.at(v[0])}, v[5], v[6], {v[2], v[3]}};
     if (has_commanded_) {
       row.commanded = {v[7], v[8]};
     }

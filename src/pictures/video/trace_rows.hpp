@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "results/trace/program_zero.hpp"
 #include "results/trace/trace_reader.hpp"
 
 namespace twin::pictures::video {
@@ -12,7 +13,8 @@ namespace twin::pictures::video {
 struct TraceRow {
   double t = 0.0;                 ///< [s]
   double line = 0.0;              ///< NC line
-  Vec3 position = Vec3::Zero();   ///< pen on the plate: table x and y, set point z [mm]
+  Vec3 position = Vec3::Zero();   ///< pen on the plate: table x and y, set point z above
+                                  ///< the program's Z0 [mm]
   double feedrate = 0.0;          ///< [mm/s]
   double error_um = 0.0;          ///< contour error [um]; 0 in a plan
   Vec2 commanded = Vec2::Zero();  ///< set point [mm]; the position where the trace has none
@@ -31,6 +33,7 @@ class TraceRows {
   explicit TraceRows(results::TraceReader&& reader) : reader_(std::move(reader)) {}
 
   results::TraceReader reader_;
+  results::ProgramZero zero_;
   bool has_error_ = false;
   bool has_commanded_ = false;
 };

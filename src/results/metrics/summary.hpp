@@ -11,6 +11,7 @@
 #include "core/setting.hpp"
 #include "results/metrics/limit_audit.hpp"
 #include "results/metrics/place.hpp"
+#include "results/trace/program_zero.hpp"
 
 namespace twin::results {
 
@@ -158,6 +159,7 @@ struct Summary {
   std::string program_sha256;      ///< checksum of the NC program, 64 hexadecimal digits
   /// Files of subprograms that the program called, each with its checksum.
   std::vector<std::pair<std::string, std::string>> subprograms;
+  ProgramZero program_zero;       ///< over the time of the run
   std::vector<Setting> settings;  ///< all settings of the machine file, as used
 };
 

@@ -97,6 +97,9 @@ void add_origin(Json& json, const Summary& summary) {
   for (const auto& [file, sha256] : summary.subprograms) {
     json["subprograms"].push_back({{"file", file}, {"sha256", sha256}});
   }
+  for (const ProgramZero::Change& change : summary.program_zero.changes()) {
+    json["program_zero_mm"].push_back({rounded(change.t), rounded(change.height)});
+  }
   json["settings"] = json_of(summary.settings);
 }
 

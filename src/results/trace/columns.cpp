@@ -69,7 +69,7 @@ Values values_of(const Sample& sample, const Deviations& deviations) {
           um_from_mm(tracking_error.y()),
           deviations.path_length,
           std::isfinite(sample.feedrate_limit) ? sample.feedrate_limit : 0.0,
-          sample.command.z() <= kPenUp ? 1.0 : 0.0,
+          sample.command.z() <= deviations.pen_up ? 1.0 : 0.0,
           deviations.is_rapid ? 1.0 : 0.0,
           um_from_mm(deviations.signed_command_error),
           um_from_mm(deviations.signed_contour_error),

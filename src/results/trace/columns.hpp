@@ -68,7 +68,7 @@ inline constexpr std::string_view kTimingName = "timing.csv";
 /// In the folder of the plots: the feedrate limit over time.
 inline constexpr std::string_view kLimitName = "feedrate_limit.csv";
 
-/// Height of the pen above which it does not draw [mm]. A program that never comes below is drawn
+/// Height of the pen above the program's Z0 from which on it does not draw [mm]. A program that never comes below is drawn
 /// all the same.
 inline constexpr double kPenUp = 0.1;
 
@@ -104,6 +104,7 @@ struct Deviations {
   double signed_command_error = 0.0;  ///< of the set point [mm]
   double path_length = 0.0;           ///< way of the set points since the first one [mm]
   bool is_rapid = false;              ///< the set point is on a rapid
+  double pen_up = kPenUp;             ///< height on the machine above which the pen is up [mm]
 };
 
 /// Appends a sample to rows of a trace. Tracking errors are command less encoder.

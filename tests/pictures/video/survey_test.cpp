@@ -31,6 +31,20 @@ TEST(SurveyTrace, LooksOnlyAtWhatThePenDraws) {
   EXPECT_EQ(survey->pen_up, 0.1);
 }
 
+TEST(SurveyTrace, ThePenDrawsAtTheProgramsZero) {
+  const TempFolder directory;
+  put(directory.path() / "summary.json", R"({"program_zero_mm": [[1, 12.5]]})");
+  put(directory.path() / "trace.csv", std::string(kHeader) +
+                                          "0,1,-90,80,12.5,0,99\n"
+                                          "1,2,10,-20,12.5,50,3\n"
+                                          "2,3,15,20,12.5,50,7\n"
+                                          "3,4,0,0,20,0,50\n");
+  const auto survey = survey_trace(directory.path() / "trace.csv");
+  ASSERT_TRUE(survey);
+  EXPECT_EQ(survey->largest_error_um, 7.0);
+  EXPECT_EQ(survey->low, Vec2(10, -20));
+}
+
 TEST(SurveyTrace, AProgramThatStaysHighIsDrawnAllTheSame) {
   const TempFolder directory;
   put(directory.path() / "t.csv", std::string(kHeader) + "0,1,1,2,5,0,4\n1,1,3,2,5,0,4\n");

@@ -79,6 +79,16 @@ T.runOf = (meta, number, c) => {
 
 T.kinds = {cut: 0, rapid: 1, up: 2};
 
+// Heights of the pen above the program's Z0, which the summary tells where it is not that of the machine.
+T.heights = (run) => {
+  const changes = run.summary.program_zero_mm || [];
+  let next = 0, zero = 0;
+  return run.z.map((z, i) => {
+    for (; next < changes.length && changes[next][0] <= run.t[i]; ++next) zero = changes[next][1];
+    return z - zero;
+  });
+};
+
 T.derive = (run, rapid) => {
   const {n, t, x, y, z, f} = run;
   const period = run.summary.period_s || (n > 1 ? t[1] - t[0] : 1e-3);
@@ -104,10 +114,11 @@ T.derive = (run, rapid) => {
   run.kind = new Uint8Array(n);
   const rapids = new Set(run.meta.rapid_lines || []);
   let lowers = false;
-  for (let i = 0; i < n && !lowers; ++i) lowers = z[i] <= 0.1;
+  run.height = T.heights(run);
+  for (let i = 0; i < n && !lowers; ++i) lowers = run.height[i] <= 0.1;
   for (let i = 0; i < n; ++i) {
     if (rapid ? rapid[i] : run.line && rapids.has(run.line[i])) run.kind[i] = T.kinds.rapid;
-    else if (lowers && z[i] > 0.1) run.kind[i] = T.kinds.up;
+    else if (lowers && run.height[i] > 0.1) run.kind[i] = T.kinds.up;
   }
   if (run.e) {
     run.absE = run.e.map(Math.abs);

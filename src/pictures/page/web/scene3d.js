@@ -87,7 +87,7 @@ T.Scene = class {
       const drawn = run.kind[i] === T.kinds.cut;
       const v = values ? Math.abs(values[i]) / this.state.range[1] : 0.5;
       const c = drawn ? T.shade(v, false).map((a) => a / 255) : [0.55, 0.58, 0.62];
-      rows.push([run.x[i], run.y[i], Math.max(run.z[i], 0) * (drawn ? 0 : 1) + 0.4, ...c]);
+      rows.push([run.x[i], run.y[i], Math.max(run.height[i], 0) * (drawn ? 0 : 1) + 0.4, ...c]);
     }
     return rows.flat();
   }
@@ -125,7 +125,7 @@ T.Scene = class {
     gl.uniformMatrix4fv(this.place.m, false, this.matrix());
     const run = this.state.runs[0];
     const i = this.state.index;
-    const [x, y, z] = [run.x[i], run.y[i], run.z[i]];
+    const [x, y, z] = [run.x[i], run.y[i], run.height[i]];
     const solid = (part, d) => this.put(part, d, gl.TRIANGLES, [0, 0]);
     solid(this.parts.base, [0, 0, 0]);
     solid(this.parts.saddle, [0, -y, 0]);

@@ -1,0 +1,14 @@
+(threads outside and in a bore, and a tapped hole)
+G18 G21 G90
+S120 M3
+G0 X20 Y0 Z2
+G33 Z-10 K1.5
+X21 Z-12 K1.5
+G0 Z2
+G76 P1 Z-8 I-0.5 J0.25 K0.6 R2 Q29.5 H1 E0.5 L2
+G0 X14 Z2
+G76 P1.25 Z-6 I0.4 J0.3 K0.75 E0.4 L1
+G0 X0 Z5
+G33.1 Z-7 K0.8
+G20 G33.1 Z-0.2 K0.03125 I1.5
+M2
