@@ -332,8 +332,13 @@ LimitZone CertifiedLimits::zone_of(const geometry::SpanCubic& piece, double u0, 
   const ByArcLength end = by_arc_length(to, third);
   const double length =  // Simpson's rule
       (u1 - u0) / 6.0 * (from.first.norm() + 4.0 * middle.first.norm() + to.first.norm());
-  const BendInterval interval{
-      0.0, length, u0, u1, std::max(begin.second.norm(), end.second.norm()), is_brief};
+  const BendInterval interval{.begin = 0.0,
+                              .end = length,
+                              .u0 = u0,
+                              .u1 = u1,
+                              .curvature = std::max(begin.second.norm(), end.second.norm()),
+                              .turn = 0.5 * length * (begin.second.norm() + end.second.norm()),
+                              .is_brief = is_brief};
   LimitZone zone{s0, s0 + length, limit_at(interval, feedrate, On::kCurve)};
   keep_derivatives(begin, by_arc_length(middle, third), end,
                    is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
