@@ -1,3 +1,4 @@
+#include <algorithm>
 
 #include "core/json.hpp"
 #include "tests/faults/whole_files.hpp"
@@ -33,6 +34,12 @@ TEST_F(HostileName, IsANameAndNothingElseInEveryOutput) {
     if (text == printable) {
       EXPECT_EQ(summary["program"], name);
     }
+    EXPECT_EQ(twin({"report", "out/" + name, "--quiet"}).status, 0);
+    const Json job{{"program", "in/" + name}, {"hal", "ideal"}};
+    folder.put("jobs.jsonl", job.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    const auto batch = twin({"batch", "jobs.jsonl", "--store", "store", "--quiet"});
+    EXPECT_EQ(batch.status, text == printable ? 0 : 1) << batch.err;  // bytes that are no UTF-8
+    EXPECT_EQ(std::count(batch.err.begin(), batch.err.end(), '\n'), text == printable ? 0 : 1);
     const auto compared = twin({"compare", "in/" + name, "ok.nc", "--out", "compared", "--quiet"});
     EXPECT_EQ(compared.status, 0) << compared.err;
     EXPECT_FALSE(exists("out/" + name + "/plots/pwned"));

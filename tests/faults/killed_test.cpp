@@ -50,6 +50,9 @@ class KilledAtAnyInstant : public test::CliTest, public ::testing::WithParamInte
 
 TEST_P(KilledAtAnyInstant, LeavesNoFileThatPosesAsWholeAndNoChildAndTheNextRunWorks) {
   folder.put("short.nc", "G01 X1 F1200\nX0 Y1\nM30\n");
+  folder.put(
+      "sweep.toml",
+      "program = \"short.nc\"\ntrace = \"hdf5\"\n[grid]\n\"servo.x.kp_per_s\" = [100, 150]\n");
   ASSERT_EQ(twin({"run", "short.nc", "--out", "earlier", "--no-plots", "--quiet"}).status, 0);
   const bool is_short = GetParam().name == std::string("reproduce") && kills(0) == 0;
   const double whole = is_short ? 3.0 : time_of_one();
@@ -74,16 +77,22 @@ TEST_P(KilledAtAnyInstant, LeavesNoFileThatPosesAsWholeAndNoChildAndTheNextRunWo
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, KilledAtAnyInstant,
-    ::testing::Values(Row{"run", {"run", "ok.nc", "--out", "out", "--quiet"}, 1},
-                      Row{"plan", {"plan", "ok.nc", "--out", "out", "--bound", "--quiet"}, 1},
-                      Row{"render", {"render", "earlier", "--video", "--quiet"}, 1},
-                      Row{"compare",
-                          {"compare", "ok.nc", "--out", "out", "--hal", "ideal", "--no-plots",
-                           "--quiet"},
-                          1},
-                      Row{"reproduce",
-                          {"reproduce", "--repeats", "0", "--no-plots", "--out", "out", "--quiet"},
-                          1}),
+    ::testing::Values(
+        Row{"run", {"run", "ok.nc", "--out", "out", "--quiet"}, 1},
+        Row{"plan", {"plan", "ok.nc", "--out", "out", "--bound", "--quiet"}, 1},
+        Row{"render", {"render", "earlier", "--video", "--quiet"}, 1},
+        Row{"compare",
+            {"compare", "ok.nc", "--out", "out", "--hal", "ideal", "--no-plots", "--quiet"},
+            1},
+        Row{"reproduce",
+            {"reproduce", "--repeats", "0", "--no-plots", "--out", "out", "--quiet"},
+            1},
+        Row{"run_with_hdf5",
+            {"run", "ok.nc", "--out", "out", "--trace", "both", "--no-plots", "--quiet"},
+            1},
+        Row{"sweep", {"sweep", "sweep.toml", "--out", "out", "--quiet"}, 1},
+        Row{"compensate", {"compensate", "short.nc", "--out", "c.csv", "--quiet"}, 1},
+        Row{"report", {"report", "earlier", "--quiet"}, 1}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace killed_test

@@ -48,6 +48,11 @@ void full_output() { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); }
 
 TEST_F(Refused, AFullStandardOutputIsAnErrorOfEveryCommandThatPrints) {
   ASSERT_EQ(twin({"run", "ok.nc", "--out", "earlier", "--no-plots", "--quiet"}).status, 0);
+  folder.put("short.nc", "G01 X1 F1200\nX0 Y1\nM30\n");
+  folder.put("jobs.jsonl", R"({"program": "short.nc", "hal": "ideal"})"
+                           "\n");
+  folder.put("sweep.toml",
+             "program = \"short.nc\"\nhal = \"ideal\"\nfeedrate_mm_per_min = [600, 900]\n");
   const std::vector<std::vector<std::string>> commands{
       {"--help"},
       {"--version"},
@@ -58,6 +63,12 @@ TEST_F(Refused, AFullStandardOutputIsAnErrorOfEveryCommandThatPrints) {
       {"compare", "ok.nc", "dolphin.nc", "--out", "compare"},
       {"circle", "--hal", "ideal", "--out", "circle", "--no-plots"},
       {"convert", "ok.nc", "--to", "fanuc", "--out", "converted.nc"},
+      {"run", "ok.nc", "--trace", "hdf5", "--out", "hdf5", "--no-plots"},
+      {"report", "earlier"},
+      {"batch", "jobs.jsonl", "--store", "store"},
+      {"sweep", "sweep.toml", "--list"},
+      {"sweep", "sweep.toml", "--out", "sweep"},
+      {"compensate", "short.nc", "--out", "c.csv"},
       {"rig", "check", "--rig", "emulated"},
       {"rig", "probe", "--rig", "emulated"},
       {"rig", "monitor", "--rig", "emulated"},
@@ -125,6 +136,24 @@ TEST_F(Refused, WithAnyNumberOfDescriptorsItWorksOrSaysWhyNot) {
   EXPECT_TRUE(has_worked);
 }
 
+TEST_F(Refused, WithFewDescriptorsASweepAndItsHdf5WorkOrSayWhyNot) {
+  folder.put("short.nc", "G01 X1 F1200\nX0 Y1\nM30\n");
+  folder.put("sweep.toml",
+             "program = \"short.nc\"\ntrace = \"hdf5\"\nhal = \"ideal\"\nfeedrate_mm_per_min = "
+             "[600, 900]\n");
+  for (const rlim_t most : {6U, 9U, 12U, 40U}) {
+    const auto result =
+        run({"sweep", "sweep.toml", "--out", "out", "--quiet"}, limit(RLIMIT_NOFILE, most));
+    if (result.status != 127 && most < 40) {
+      EXPECT_LT(result.status, 128) << most << ": " << result.err;
+      EXPECT_THAT(test::broken_files(folder.path()), IsEmpty()) << most;
+    }
+    if (most == 40) {
+      EXPECT_EQ(result.status, 0) << result.err;
+    }
+  }
+}
+
 TEST_F(Refused, WithAnyAmountOfMemoryItWorksOrSaysWhyNot) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer reserves more memory than there is";
@@ -155,6 +184,23 @@ TEST_F(Refused, AFullDiskIsToldAndLeavesNothingThatPosesAsWhole) {
     EXPECT_EQ(result.status, 1) << size << result.err;
     EXPECT_THAT(result.err, ::testing::StartsWith("twin: "));
   }
+}
+
+TEST_F(Refused, AStoreOfResultsThatIsFullIsToldAndLeavesNothingThatPosesAsWhole) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "the thread sanitizer's own files do not survive a limit of file size";
+#endif
+  folder.put("short.nc", "G01 X1 F1200\nX0 Y1\nM30\n");
+  folder.put("jobs.jsonl", R"({"program": "short.nc", "hal": "ideal", "trace": "hdf5"})"
+                           "\n");
+  for (const long most : {100L, 2000L, 20000L}) {
+    const auto result = test::run_twin({"batch", "jobs.jsonl", "--store", "store", "--quiet"},
+                                       {folder.path(), most});
+    EXPECT_EQ(result.status, 1) << most << result.err;
+    EXPECT_THAT(result.err, ::testing::StartsWith("twin: ")) << most;
+    EXPECT_THAT(test::broken_files(folder.path()), IsEmpty()) << most;
+  }
+  EXPECT_EQ(twin({"batch", "jobs.jsonl", "--store", "store", "--quiet"}).status, 0);
 }
 
 TEST_F(Refused, ALimitOfFileSizeIsToldAndLeavesNothingThatPosesAsWhole) {

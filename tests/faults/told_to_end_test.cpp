@@ -69,6 +69,10 @@ TEST_P(ToldToEnd, EndsSoonWithOneLineAndLeavesNothingBehind) {
   if (GetParam().command[1] == "long.nc") {
     put_long_program(400000);
   }
+  folder.put("sweep.toml", R"(program = "dolphin.nc"
+[grid]
+"servo.x.kp_per_s" = { from = 100, to = 200, count = 400 }
+)");
   if (std::string(GetParam().name).starts_with("render")) {
     ASSERT_EQ(twin({"run", "dolphin.nc", "--out", "earlier", "--no-plots", "--quiet"}).status, 0);
   }
@@ -97,6 +101,9 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"compare", {"compare", "dolphin.nc", "--out", "out"}, ".unfinished_"},
         Row{"reproduce", {"reproduce", "--out", "out"}, ".unfinished_"},
         Row{"tables", {"identify", "--tables", "--out", "out/x.toml"}, "out"},
+        Row{"sweep", {"sweep", "sweep.toml", "--out", "out", "--quiet"}, "twin-store.json"},
+        Row{"tune", {"tune", "dolphin.nc", "--out", "out", "--quiet"}, "twin-store.json"},
+        Row{"compensate", {"compensate", "dolphin.nc", "--out", "out/c.csv", "--quiet"}, ""},
         Row{"render_video", {"render", "earlier", "--no-plots", "--video"}, "video.mp4.tmp"}),
     [](const auto& test) { return test.param.name; });
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,8 +12,13 @@
 
 namespace twin::test {
 
-/// A name that says that the file is not finished, or that it is below such a name.
+/// A name that says that the file is not finished, or that it is below such a name; what a store is
+/// working at is in its folder "work".
 inline bool is_unfinished(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  if (std::find(folder.begin(), folder.end(), "work") != folder.end()) {
+    return true;
+  }
   return std::any_of(file.begin(), file.end(), [](const std::filesystem::path& part) {
     const std::string name = part.string();
     return name.find(".partial.") != std::string::npos || name.ends_with(".tmp") ||
@@ -36,8 +42,11 @@ inline bool is_whole_mp4(const std::string& bytes) {
 }
 
 /// Whether a CSV file ends with a line end and each of its lines has as many commas as the first;
-/// commas and line ends between quotes do not count.
-inline bool is_whole_csv(const std::string& text) {
+/// commas and line ends between quotes do not count, nor do remarks before the header.
+inline bool is_whole_csv(std::string_view text) {
+  while (text.starts_with('#')) {
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  }
   bool is_quoted = false;
   int commas = 0;
   int first = -1;
@@ -55,6 +64,24 @@ inline bool is_whole_csv(const std::string& text) {
   return !is_quoted && text.ends_with('\n');
 }
 
+/// A number of eight bytes, the least first.
+inline std::uint64_t number_at(const std::string& bytes, std::size_t at) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 8; i-- > 0;) {
+    number = number << 8U | static_cast<unsigned char>(bytes[at + i]);
+  }
+  return number;
+}
+
+/// Whether an HDF5 file has all the bytes that its superblock promises. Source: HDF5 File Format
+/// Specification, III.A: the end of file address.
+inline bool is_whole_hdf5(const std::string& bytes) {
+  if (bytes.size() < 48 || bytes.compare(0, 8, "\x89HDF\r\n\x1a\n") != 0) {
+    return false;
+  }
+  return bytes.size() >= number_at(bytes, bytes[8] < 2 ? 40 : 28);
+}
+
 /// Whether the content of a file is all that its kind wants.
 inline bool is_whole(const std::filesystem::path& file) {
   const std::string bytes = content(file);
@@ -67,6 +94,9 @@ inline bool is_whole(const std::filesystem::path& file) {
   }
   if (kind == ".mp4") {
     return is_whole_mp4(bytes);
+  }
+  if (kind == ".h5") {
+    return is_whole_hdf5(bytes);
   }
   const std::string end = kind == ".png"    ? "IEND\xAE\x42\x60\x82"
                           : kind == ".svg"  ? "</svg>\n\n"

@@ -10,9 +10,17 @@ std::recursive_mutex& calls_mutex() {
   return mutex;
 }
 
+/// The library would close at exit what it could not close before, as a file on a full disk, and ends the
+/// process by a fault of memory there. Every file is closed by its owner. First call of the library.
+bool leaves_exit_alone() {
+  static const bool leaves = H5dont_atexit() >= 0;
+  return leaves;
+}
+
 }  // namespace
 
 Calls::Calls() : lock_(calls_mutex()) {
+  static_cast<void>(leaves_exit_alone());
   H5Eget_auto2(H5E_DEFAULT, &report_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
