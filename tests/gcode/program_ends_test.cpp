@@ -78,6 +78,7 @@ TEST(ControlCharacters, OfATransferAreLeftOutBeforeALinesWords) {
   EXPECT_EQ(error_of(nul + "G0 X1"), "line 1:1: byte 0x00 is not NC text: is this an NC program?");
   EXPECT_EQ(error_of("\x02 G0 X1\nX2\x02"),
             "line 2:3: byte 0x02 is not NC text: is this an NC program?");
+  EXPECT_EQ(blocks_of("\x11o1 repeat [2]\nG91 G0 X1\n\x13o1 endrepeat\nX1").size(), 3U);
   EXPECT_EQ(error_of("\x02 G0 J"),
             "line 1:6: J has no number: expected one before the end of the line");
 }

@@ -52,6 +52,11 @@ TEST(Recovery, NurbsWithAnErrorIsOneError) {
               ElementsAre(3, 8));
 }
 
+TEST(Recovery, EndOfANurbsThatAnErrorHasLeftOutIsAnError) {
+  EXPECT_THAT(lines_of_errors("G0 X0 Y0 F100\nG5.2 P1\nX Y1\nG21\nG5.3\nG1 X9\n"),
+              ElementsAre(3, 5));
+}
+
 TEST(Recovery, GougeEndsTheCompensation) {
   EXPECT_THAT(lines_of_errors("G0 X0 Y0 F100\nG41.1 D4\nG1 X10\nX20\nY1\nX30\nG40\nX40\n").size(),
               1U);

@@ -41,7 +41,7 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
     Unit& text = unit();
     const std::int64_t offset = text.source.bytes_read();
     is_broken_ = true;  // until a line is read
-    TWIN_TRY(auto line, text.source.next());
+    TWIN_TRY(const auto line, text.source.next());
     if (!line) {
       if (frames_.size() == 1) {
         return false;
@@ -54,8 +54,11 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
       TWIN_CHECK(count_repeated_line());
     }
     is_broken_ = false;
-    const std::size_t stepped_over =
-        is_control(at_or_zero(*line, 0)) ? step_over_controls(*line) : 0;
+    const std::size_t stepped_over = text.source.stepped_over();
+    if (stepped_over > 0) {
+      notes_.add(NoteKind::kText, "control characters before a line's words are left out",
+                 main_line());
+    }
     const bool begins_at_once = !line->empty() && !is_blank(line->front());
     const std::size_t first = begins_at_once ? 0 : line->find_first_not_of(kBlanksOfLine);
     if (first == std::string_view::npos) {
@@ -91,22 +94,6 @@ Expected<bool> Flow::next(ExecutedLine& executed) {
     frame_->has_words = frame_->has_words || (c != '(' && c != ';');
     return true;
   }
-}
-
-/// Takes control characters other than NUL from the front of a line: a transfer over a serial line
-/// and DOS have them around a program's text. @returns how many
-std::size_t Flow::step_over_controls(std::string_view& line) {
-  std::size_t count = 0;
-  while (count < line.size() && is_control(line[count]) && line[count] != '\x7F' &&
-         line[count] != '\0') {
-    ++count;
-  }
-  if (count > 0) {
-    notes_.add(NoteKind::kText, "control characters before a line's words are left out",
-               main_line());
-    line.remove_prefix(count);
-  }
-  return count;
 }
 
 /// Counts a line that comes again, and stops a program that reads the same lines for ever.

@@ -107,7 +107,6 @@ class Flow {
     frame_ = &frames_.back();
     unit_ = units_[frame_->unit].get();
   }
-  std::size_t step_over_controls(std::string_view& line);
   Expected<void> count_repeated_line();
   Expected<bool> ends_at_percent(std::string_view text, std::size_t at);
   bool is_only_blank_behind();

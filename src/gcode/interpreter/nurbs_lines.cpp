@@ -66,7 +66,8 @@ Expected<void> Interpreter::end_nurbs(const LineWords& words, MotionMode before,
                                       LineBlocks& blocks) {
   const int column = words.column(GGroup::kMotion);
   const bool ends_knots = words.g(GGroup::kMotion) == GWord::kKnotNurbsEnd;
-  if (before != (ends_knots ? MotionMode::kKnotNurbs : MotionMode::kNurbs)) {
+  const bool has_begun = before == (ends_knots ? MotionMode::kKnotNurbs : MotionMode::kNurbs);
+  if (!has_begun || (!ends_knots && !nurbs_.is_open())) {
     return fail_at(column, fmt::format("{} without {} before it", ends_knots ? "G06.3" : "G05.3",
                                        ends_knots ? "G06.2" : "G05.2"));
   }

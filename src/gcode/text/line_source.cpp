@@ -15,6 +15,9 @@ constexpr std::size_t kBufferSize = 65536;                     // [bytes]
 constexpr std::size_t kWindow = LineSource::kLongestLine + 2;  // a whole line with its CR LF
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+/// True for control characters that a transfer over a serial line and DOS put around a text.
+bool is_of_transfer(char c) { return c > '\0' && c < ' ' && c != '\t'; }
+
 std::size_t find_in(std::string_view text, char c) {
   const void* at = std::memchr(text.data(), c, text.size());
   return at == nullptr ? text.size()
@@ -78,7 +81,11 @@ Expected<std::optional<std::string_view>> LineSource::next() {
   }
   begin_ += taken;
   bytes_ += static_cast<std::int64_t>(taken);
-  return unread.substr(0, length);
+  stepped_over_ = 0;
+  while (stepped_over_ < length && is_of_transfer(unread[stepped_over_])) {
+    ++stepped_over_;
+  }
+  return unread.substr(stepped_over_, length - stepped_over_);
 }
 
 }  // namespace twin::gcode

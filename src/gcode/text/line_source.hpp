@@ -12,7 +12,9 @@ namespace twin::gcode {
 
 /// The lines of a program, one at a time, in constant memory.
 ///
-/// Lines end in LF, CR LF or CR; the last one may lack its end. A UTF-8 byte order mark is skipped.
+/// Lines end in LF, CR LF or CR; the last one may lack its end. A UTF-8 byte order mark is skipped,
+/// and so are control characters other than NUL in front of a line, which a transfer over a serial
+/// line and DOS put there.
 ///
 ///   buffer   |<-- given out -->|<------ unread ------>|
 ///            0               begin_                  end_
@@ -41,6 +43,9 @@ class LineSource {
   /// Fails on a line longer than kLongestLine and when the program's copy cannot be read on.
   Expected<std::optional<std::string_view>> next();
 
+  /// Control characters that were left out in front of the last line given.
+  std::size_t stepped_over() const noexcept { return stepped_over_; }
+
   std::int64_t line() const noexcept { return line_; }  ///< number of the last line given, from 1
   std::int64_t bytes_read() const noexcept { return bytes_; }     ///< bytes given out so far
   std::int64_t size() const noexcept { return program_.size(); }  ///< bytes in all
@@ -55,6 +60,7 @@ class LineSource {
   std::size_t end_ = 0;
   std::int64_t line_ = 0;
   std::int64_t bytes_ = 0;
+  std::size_t stepped_over_ = 0;
 };
 
 }  // namespace twin::gcode
