@@ -20,7 +20,8 @@ Drive::Drive(const DriveParams& drive, const MotorParams& motor, double inertia,
              double torque_per_volt)
     : drive_(drive),
       motor_(motor),
-      gain_(inertia * 2.0 * std::numbers::pi * drive.velocity_gain_Hz),
+      full_gain_(inertia * 2.0 * std::numbers::pi * drive.velocity_gain_Hz),
+      gain_(full_gain_),
       step_(step),
       torque_per_volt_(torque_per_volt),
       feedback_(drive, step),
@@ -31,6 +32,14 @@ void Drive::reset() noexcept {
   filtered_ = integral_ = torque_ = current_ = time_on_ = time_limited_ = 0.0;
   feedback_.reset();
   is_ready_ = has_alarm_ = false;
+}
+
+void Drive::set_loop_gain(double factor) noexcept {
+  const double gain = full_gain_ * factor;
+  if (gain != gain_) {
+    integral_ *= gain_ / gain;
+    gain_ = gain;
+  }
 }
 
 void Drive::begin_moving(double volts, double speed, double torque) noexcept {

@@ -45,6 +45,9 @@ class Drive {
   void begin_moving(double volts, double speed, double torque) noexcept;
   /// Torque-free, filters empty, alarm cleared. Real-time safe.
   void reset() noexcept;
+  /// Multiplies the gain of the velocity loop by a factor > 0; its torque does not jump. Real-time
+  /// safe.
+  void set_loop_gain(double factor) noexcept;
   /// Gives alarm. Real-time safe.
   void trip() noexcept { has_alarm_ = true; }
 
@@ -62,7 +65,8 @@ class Drive {
 
   DriveParams drive_;
   MotorParams motor_;
-  double gain_;             // J K [N.m s/rad]
+  double full_gain_;        // J K [N.m s/rad]
+  double gain_;             // the same times the factor of set_loop_gain()
   double step_;             // [s]
   double torque_per_volt_;  // of torque mode [N.m/V]
   SpeedFeedback feedback_;

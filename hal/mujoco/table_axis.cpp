@@ -59,9 +59,10 @@ AxisForces TableAxis::step(const AxisMotion& motion, double time) noexcept {
   signals.limit_positive = is_limit_positive(motion.position);
   signals.limit_negative = is_limit_negative(motion.position);
   AxisForces forces;
-  forces.torque = drive_.step(delay_.step(volts_), motion.motor_speed, time, signals);
-  resistance_ = friction_.step(motion.velocity);
-  forces.slide = end_stop(motion) - resistance_ + load(motion.position);
+  const double volts = delay_.step(volts_) * condition_.vref_gain + condition_.vref_offset;
+  forces.torque = drive_.step(volts, motion.motor_speed, time, signals);
+  resistance_ = friction_.step(motion.velocity) * condition_.friction;
+  forces.slide = end_stop(motion) - resistance_ + load(motion.position) + condition_.force;
   torque_ = forces.torque;
   return forces;
 }

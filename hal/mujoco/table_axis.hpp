@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hal/mujoco/change.hpp"
 #include "hal/mujoco/delay_line.hpp"
 #include "hal/mujoco/drive.hpp"
 #include "hal/mujoco/friction.hpp"
@@ -39,6 +40,12 @@ class TableAxis {
   void switch_off() noexcept { command(0.0, false); }
   /// Clears an alarm and the states of the drive. Real-time safe.
   void reset_drive() noexcept;
+  /// Lets drive and friction differ from their parameters from the next step on; stiffness, play,
+  /// lost edges and mass are not here. Real-time safe.
+  void set_condition(const AxisCondition& condition) noexcept {
+    condition_ = condition;
+    drive_.set_loop_gain(condition.loop_gain);
+  }
   /// Makes the drive give alarm. Real-time safe.
   void trip() noexcept { drive_.trip(); }
   /// Opens limit switches wherever the slide is, or leaves them to it again. Real-time safe.
@@ -68,6 +75,7 @@ class TableAxis {
   Drive drive_;
   Friction friction_;
   LoadParams load_;
+  AxisCondition condition_;
   double ripple_per_mm_;     // angle of the ripple per travel [rad/mm]
   double volts_ = 0.0;       // at the terminals [V]
   double torque_ = 0.0;      // of the motor in the last step [N.m]

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "hal/machine.hpp"
+#include "hal/mujoco/change.hpp"
 
 /// Every number of the simulated table, with units. The values are those of mjcf/xy_table.toml;
 /// where each comes from is said in mjcf/README.md.
@@ -150,6 +152,7 @@ struct TableParams {
   double physics_step = 1e-4;      ///< at most; a whole number of steps makes a period [s]
   double pen_bandwidth_Hz = 20.0;  ///< of the Z slide that follows its reference [Hz]
   std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};
+  std::vector<Change> changes{};  ///< what changes while it runs
 };
 
 }  // namespace twin::hal::mujoco

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/units.hpp"
+#include "hal/mujoco/screw.hpp"
 
 namespace twin::hal::mujoco {
 namespace {
@@ -51,7 +52,8 @@ TablePhysics::TablePhysics(ModelPtr model, DataPtr data, const TableJoints& join
       data_(std::move(data)),
       joints_(joints),
       mm_per_rad_{params.axis[kX].mm_per_rad(), params.axis[kY].mm_per_rad()},
-      pen_omega_(2.0 * std::numbers::pi * params.pen_bandwidth_Hz) {}
+      pen_omega_(2.0 * std::numbers::pi * params.pen_bandwidth_Hz),
+      screws_{params.axis[kX].screw, params.axis[kY].screw} {}
 
 AxisMotion TablePhysics::motion(std::size_t axis) const noexcept {
   const AxisJoints& joints = joints_.axis[axis];
@@ -73,6 +75,28 @@ double TablePhysics::pen_position() const noexcept {
   return units::mm_from_m(data_->qpos[joints_.pen.qpos]);
 }
 
+void TablePhysics::set_condition(std::size_t axis, const AxisCondition& condition) noexcept {
+  const AxisJoints& joints = joints_.axis[axis];
+  Screw& changed = changed_[axis];
+  changed.stiffness = screws_[axis].stiffness * condition.stiffness;
+  changed.damping = screws_[axis].damping;
+  changed.backlash = condition.backlash;
+  changed.mass = condition.mass;
+  if (joints.is_compliant() && !changed.is_ours) {
+    changed.is_ours = true;
+    model_->tendon_stiffness[joints.screw] = 0.0;
+    model_->tendon_damping[joints.screw] = 0.0;
+  }
+}
+
+double TablePhysics::screw_force(std::size_t axis) const noexcept {
+  const Screw& screw = changed_[axis];
+  const AxisMotion at = motion(axis);
+  return mujoco::screw_force(
+      {at.position - encoder_position(axis), at.velocity - at.motor_speed * mm_per_rad_[axis]},
+      screw.stiffness, screw.damping, screw.backlash);
+}
+
 void TablePhysics::apply(std::size_t axis, const AxisForces& forces) noexcept {
   const AxisJoints& joints = joints_.axis[axis];
   if (joints.is_compliant()) {
@@ -81,6 +105,15 @@ void TablePhysics::apply(std::size_t axis, const AxisForces& forces) noexcept {
   } else {
     data_->qfrc_applied[joints.slide.dof] =
         forces.slide + forces.torque / units::m_from_mm(mm_per_rad_[axis]);
+  }
+  if (changed_[axis].is_ours) {
+    const double pull = screw_force(axis);
+    data_->qfrc_applied[joints.slide.dof] -= pull;
+    data_->qfrc_applied[joints.motor.dof] += pull * units::m_from_mm(mm_per_rad_[axis]);
+  }
+  if (changed_[axis].mass != 0.0) {
+    // The inertial force of the added mass, with the acceleration of the last step.
+    data_->qfrc_applied[joints.slide.dof] -= changed_[axis].mass * data_->qacc[joints.slide.dof];
   }
 }
 

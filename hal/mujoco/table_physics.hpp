@@ -29,6 +29,12 @@ class TablePhysics {
   /// Height of the pen [mm]. Real-time safe.
   double pen_position() const noexcept;
 
+  /// Whether the screw of an axis gives.
+  bool has_screw(std::size_t axis) const noexcept { return joints_.axis[axis].is_compliant(); }
+  /// Lets stiffness, play and mass differ from their parameters from the next step on. Real-time
+  /// safe.
+  void set_condition(std::size_t axis, const AxisCondition& condition) noexcept;
+
   /// Forces of the coming step. Real-time safe.
   void apply(std::size_t axis, const AxisForces& forces) noexcept;
   /// Pulls the pen slide to its reference like a critically damped spring [mm]. Real-time safe.
@@ -47,6 +53,17 @@ class TablePhysics {
   TableJoints joints_;
   std::array<double, kServoAxes> mm_per_rad_;
   double pen_omega_;  // bandwidth of the pen slide [rad/s]
+  double screw_force(std::size_t axis) const noexcept;
+
+  struct Screw {
+    double stiffness = 0.0;  // [N/mm]
+    double damping = 0.0;    // [N s/mm]
+    double backlash = 0.0;   // [mm]
+    double mass = 0.0;       // added to the slide [kg]
+    bool is_ours = false;    // its force is computed here, not by MuJoCo
+  };
+  std::array<ScrewParams, kServoAxes> screws_;
+  std::array<Screw, kServoAxes> changed_{};
 };
 
 }  // namespace twin::hal::mujoco

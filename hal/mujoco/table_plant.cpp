@@ -20,15 +20,34 @@ Expected<std::unique_ptr<TablePlant>> TablePlant::open(const TableParams& params
   const int steps = steps_per_period(period, params.physics_step);
   const double step = period / steps;
   TWIN_TRY(std::unique_ptr<TablePhysics> physics, TablePhysics::open(params, step));
+  for (const Change& change : params.changes) {
+    const AxisParams& changed = params.axis[change.axis];
+    const double movable = changed.moving_mass + changed.rotor_mass();
+    if (change.kind == ChangeKind::kLoad && change.value >= movable) {
+      return fail(ErrorCode::kUsage,
+                  fmt::format("change '{}': the load must be below the {:.3g} kg that the axis "
+                              "moves",
+                              to_string(change), movable));
+    }
+    if (needs_screw(change.kind) && !physics->has_screw(change.axis)) {
+      return fail(ErrorCode::kUsage, fmt::format("change '{}' needs screws that give: --set "
+                                                 "table.model=xy_table_compliant.xml",
+                                                 to_string(change)));
+    }
+  }
   return std::unique_ptr<TablePlant>(new TablePlant(std::move(physics), params, step, steps));
 }
 
 TablePlant::TablePlant(std::unique_ptr<TablePhysics> physics, const TableParams& params,
                        double step, int steps)
-    : physics_(std::move(physics)), step_(step), steps_(steps) {
+    : physics_(std::move(physics)), changes_(params.changes), step_(step), steps_(steps) {
   for (const AxisParams& axis : params.axis) {
     axes_.emplace_back(axis, step_);
     feedback_.emplace_back(axis.encoder.delay / step_);
+    if (!changes_.empty()) {
+      changing_.push_back(
+          {.now = {}, .edges = Encoder(axis.encoder), .mm_per_count = axis.encoder.mm_per_count});
+    }
   }
 }
 
@@ -46,8 +65,38 @@ void TablePlant::force_limits(std::size_t axis, bool positive, bool negative) no
   axes_[axis].force_limits(positive, negative);
 }
 
+void TablePlant::change(std::size_t axis) noexcept {
+  Changing& changing = changing_[axis];
+  if (changing.ready_at < 0.0) {
+    if (!is_ready(axis)) {
+      return;
+    }
+    changing.ready_at = time();
+  }
+  changing.now = condition_at(changes_, axis, time() - changing.ready_at);
+  axes_[axis].set_condition(changing.now);
+  physics_->set_condition(axis, changing.now);
+}
+
+/// A lost edge moves the encoder's zero by a count, against the motion.
+double TablePlant::with_lost_edges(std::size_t axis, double position) noexcept {
+  Changing& changing = changing_[axis];
+  const std::int64_t counts = changing.edges.counts(position);
+  const std::int64_t edges = counts - std::exchange(changing.counts, counts);
+  if (edges != 0 && changing.now.lost_share > 0.0) {
+    changing.passed += changing.now.lost_share * static_cast<double>(std::abs(edges));
+    const double lost = std::floor(changing.passed);
+    changing.passed -= lost;
+    changing.lost += (edges > 0 ? lost : -lost) * changing.mm_per_count;
+  }
+  return position - changing.lost;
+}
+
 void TablePlant::step() {
   const double now = time();
+  for (std::size_t axis = 0; axis < changing_.size(); ++axis) {
+    change(axis);
+  }
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     AxisForces forces = axes_[axis].step(physics_->motion(axis), now);
     forces.slide += external_force_[axis];
@@ -57,6 +106,9 @@ void TablePlant::step() {
   physics_->step();
   for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
     reported_[axis] = feedback_[axis].step(physics_->encoder_position(axis));
+    if (!changing_.empty()) {
+      reported_[axis] = with_lost_edges(axis, reported_[axis]);
+    }
   }
   ++steps_done_;
 }

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "hal/mujoco/change.hpp"
 #include "hal/mujoco/delay_line.hpp"
+#include "hal/mujoco/encoder.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "hal/mujoco/table_params.hpp"
 
@@ -75,16 +77,30 @@ class TablePlant {
   TablePlant(std::unique_ptr<TablePhysics> physics, const TableParams& params, double step,
              int steps);
   void step();
+  /// What has changed of an axis, where something changes at all.
+  struct Changing {
+    AxisCondition now;
+    double ready_at = -1.0;      // when its drive first became ready; negative: not yet [s]
+    Encoder edges;               // counts of the shaft, before any is lost
+    std::int64_t counts = 0;     // of it in the last step
+    double passed = 0.0;         // edges since the last one that was lost, times the lost share
+    double lost = 0.0;           // edges that were lost, signed, as travel [mm]
+    double mm_per_count = 0.01;  // signed [mm]
+  };
+  void change(std::size_t axis) noexcept;
+  double with_lost_edges(std::size_t axis, double position) noexcept;
 
   std::unique_ptr<TablePhysics> physics_;
   std::vector<TableAxis> axes_;
   std::vector<DelayLine> feedback_;                  // of the encoders
   std::array<double, kServoAxes> reported_{};        // behind it [mm]
   std::array<double, kServoAxes> external_force_{};  // [N]
-  double pen_reference_ = 0.0;                       // [mm]
-  double step_;                                      // physics step [s]
-  int steps_;                                        // physics steps in a period
-  std::int64_t steps_done_ = 0;                      // since open()
+  std::vector<Change> changes_;
+  std::vector<Changing> changing_;  // of each axis; empty without changes
+  double pen_reference_ = 0.0;      // [mm]
+  double step_;                     // physics step [s]
+  int steps_;                       // physics steps in a period
+  std::int64_t steps_done_ = 0;     // since open()
   bool is_unstable_ = false;
   std::array<char, 200> mujoco_words_{};  // kept without allocating
 };

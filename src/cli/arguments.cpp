@@ -188,6 +188,10 @@ class ArgumentParser {
         app_, "compensate",
         "Shift a program's set points so that the identified table meets the path: a file for "
         "run --compensate");
+    add<ShadowCommandArguments>(
+        app_, "shadow",
+        "Hold the identified table beside recorded runs and say what has changed of the machine; "
+        "--learn takes them for healthy ones");
     add<FastestArguments>(
         app_, "fastest",
         "The largest feedrates at which a program keeps a tolerance, whatever the table may be "

@@ -40,11 +40,12 @@ struct MachineArguments {
 
 /// --hal rig: which rig it is, and what is known of it.
 struct RigArguments {
-  std::string which = "auto";       ///< "auto", "cards", "process", "emulated"
-  std::string name;                 ///< of the emulator's shared memory; empty: the user's own
-  std::filesystem::path log;        ///< gets the events at the emulated boards; empty: none
-  std::vector<std::string> faults;  ///< of emulated boards: KIND[:AXIS]@SECONDS
-  bool is_known_to_move = false;    ///< --i-know-it-moves
+  std::string which = "auto";        ///< "auto", "cards", "process", "emulated"
+  std::string name;                  ///< of the emulator's shared memory; empty: the user's own
+  std::filesystem::path log;         ///< gets the events at the emulated boards; empty: none
+  std::vector<std::string> faults;   ///< of emulated boards: KIND[:AXIS]@SECONDS
+  std::vector<std::string> changes;  ///< of the simulated table: KIND:AXIS=VALUE@SECONDS[+RAMP]
+  bool is_known_to_move = false;     ///< --i-know-it-moves
 };
 
 /// --hal, and the rig that it may mean.
@@ -81,11 +82,18 @@ struct CorrectionArguments {
   std::vector<std::string> plant{};  ///< --set-plant: of the simulated table alone
 };
 
+/// --shadow.
+struct ShadowArguments {
+  bool is_wanted = false;
+  std::filesystem::path file;  ///< of twin shadow --learn; empty: only the model is known
+};
+
 struct RunArguments {
   ProgramArguments program;
   MachineArguments machine;
   HalArguments hal;
   CorrectionArguments correction;
+  ShadowArguments shadow;
   std::optional<double> tolerance;  ///< --tolerance-um, of the contour error [mm]
   std::string overrides;            ///< seconds:percent, ...
   bool is_on_wall_clock = false;    ///< --realtime
@@ -175,6 +183,16 @@ struct CompensateArguments {
   ProgramArguments program;
   MachineArguments machine;
   std::filesystem::path file;  ///< to write; empty: renders/PROGRAM/correction.csv
+  Verbosity verbosity = Verbosity::kNormal;
+};
+
+struct ShadowCommandArguments {
+  std::vector<std::string> traces;
+  bool is_learning = false;      ///< --learn
+  std::filesystem::path learnt;  ///< --learnt, what an earlier --learn has written; may be empty
+  std::filesystem::path file;    ///< --out; empty: beside the trace, or one below renders
+  std::string columns;           ///< SIGNAL=COLUMN[:UNIT],...
+  MachineArguments machine;
   Verbosity verbosity = Verbosity::kNormal;
 };
 
@@ -273,10 +291,11 @@ struct PlantArguments {
   MachineArguments machine;
   std::string program;  ///< that LinuxCNC runs; empty: recordings are not held against one
   std::string name;     ///< of the shared memory; empty: the user's own
-  std::vector<std::string> faults;  ///< KIND:AXIS@SECONDS
-  std::optional<double> duration;   ///< of simulated time [s]; without it until it is stopped
-  std::filesystem::path folder;     ///< of the recordings; empty: renders/plant
-  bool has_recording = true;        ///< without --no-trace
+  std::vector<std::string> faults;   ///< KIND:AXIS@SECONDS
+  std::vector<std::string> changes;  ///< KIND:AXIS=VALUE@SECONDS[+RAMP]
+  std::optional<double> duration;    ///< of simulated time [s]; without it until it is stopped
+  std::filesystem::path folder;      ///< of the recordings; empty: renders/plant
+  bool has_recording = true;         ///< without --no-trace
 };
 
 struct LinuxcncConfigArguments {
@@ -300,10 +319,10 @@ struct TextArguments {
 using Arguments =
     std::variant<TextArguments, RunArguments, PlanArguments, CheckArguments, RenderArguments,
                  ReportArguments, SettingsArguments, CompareArguments, ReproduceArguments,
-                 CircleArguments, IdentifyArguments, CompensateArguments, FastestArguments,
-                 ConvertArguments, BatchArguments, SweepArguments, TuneArguments, RigProbeArguments,
-                 RigMonitorArguments, RigCheckArguments, RigJogArguments, RigHomeArguments,
-                 RigEmulateArguments, PlantArguments, LinuxcncConfigArguments,
+                 CircleArguments, IdentifyArguments, CompensateArguments, ShadowCommandArguments,
+                 FastestArguments, ConvertArguments, BatchArguments, SweepArguments, TuneArguments,
+                 RigProbeArguments, RigMonitorArguments, RigCheckArguments, RigJogArguments,
+                 RigHomeArguments, RigEmulateArguments, PlantArguments, LinuxcncConfigArguments,
                  LinuxcncEvaluateArguments>;
 
 /// Reads a command line.

@@ -45,6 +45,7 @@ Expected<lcnc::PlantSetup> plant_setup(const PlantArguments& arguments,
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     setup.home_is_positive[axis] = machine.home[axis].is_positive;
   }
+  TWIN_TRY(setup.table.changes, read_changes(arguments.changes));
   for (const std::string& text : arguments.faults) {
     TWIN_TRY(const auto fault, hal::rig::emulator::parse_fault(text));
     setup.faults.push_back(fault);

@@ -25,6 +25,7 @@ void add_options(CLI::App& command, PlantArguments& plant) {
   command.add_option("--for", plant.duration, "End after so much simulated time")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+  add_changes(command, plant.changes);
   add_list(command, "--fault", plant.faults,
            "Break something of the table, as in --fault alarm:x@1.5 (repeatable)")
       ->type_name("KIND:AXIS@SECONDS");

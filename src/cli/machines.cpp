@@ -103,6 +103,15 @@ std::vector<std::string> words_of(const std::string& command) {
 
 }  // namespace
 
+Expected<std::vector<hal::mujoco::Change>> read_changes(const std::vector<std::string>& texts) {
+  std::vector<hal::mujoco::Change> changes;
+  for (const std::string& text : texts) {
+    TWIN_TRY(const hal::mujoco::Change change, hal::mujoco::parse_change(text));
+    changes.push_back(change);
+  }
+  return changes;
+}
+
 std::string shared_name(const RigArguments& arguments) {
   return arguments.name.empty() ? rig::boards::default_shared_name() : arguments.name;
 }
@@ -120,10 +129,11 @@ namespace {
 Expected<std::unique_ptr<hal::Machine>> open_linuxcnc(const RigArguments& arguments,
                                                       const config::MachineFile& machine,
                                                       const std::string& purpose) {
-  if (!arguments.faults.empty() || !arguments.log.empty()) {
-    return fail(ErrorCode::kUsage,
-                "--fault and --rig-log are for --rig emulated; behind LinuxCNC twin plant takes "
-                "--fault by itself");
+  if (!arguments.faults.empty() || !arguments.log.empty() || !arguments.changes.empty()) {
+    return fail(
+        ErrorCode::kUsage,
+        "--fault, --change and --rig-log are for --rig emulated; behind LinuxCNC twin plant takes "
+        "--fault and --change by itself");
   }
   auto made = make_linuxcnc_machine(arguments, machine);
   const auto consent =
@@ -141,11 +151,13 @@ Expected<std::unique_ptr<hal::Machine>> open_rig(const RigArguments& arguments,
     return open_linuxcnc(arguments, machine, purpose);
   }
   TWIN_TRY(const RigKind kind, find_rig(arguments, machine));
-  if (kind != RigKind::kEmulated && (!arguments.faults.empty() || !arguments.log.empty())) {
-    return fail(ErrorCode::kUsage,
-                fmt::format("--fault and --rig-log are for --rig emulated, and this rig is: {}; an "
-                            "emulator's process takes --fault by itself",
-                            describe(kind)));
+  if (kind != RigKind::kEmulated &&
+      (!arguments.faults.empty() || !arguments.log.empty() || !arguments.changes.empty())) {
+    return fail(
+        ErrorCode::kUsage,
+        fmt::format("--fault, --change and --rig-log are for --rig emulated, and this rig is: "
+                    "{}; an emulator's process takes --fault and --change by itself",
+                    describe(kind)));
   }
   rig::assemble::RigSetup setup = setup_of(arguments, machine);
   if (kind != RigKind::kEmulated) {
@@ -222,6 +234,7 @@ session::MakeMachine machine_of(const HalArguments& arguments,
                             const std::string& purpose) -> Expected<std::unique_ptr<hal::Machine>> {
     config::MachineFile machine = given;
     TWIN_CHECK(config::apply_overrides(machine, plant));
+    TWIN_TRY(machine.table.changes, read_changes(arguments.rig.changes));
     if (arguments.name == "rig") {
       return open_rig(arguments.rig, machine, purpose);
     }
@@ -229,6 +242,10 @@ session::MakeMachine machine_of(const HalArguments& arguments,
       return open_linuxcnc(arguments.rig, machine, purpose);
     }
     TWIN_CHECK(check_rig_is_meant(arguments));
+    if (arguments.name == "ideal" && !machine.table.changes.empty()) {
+      return fail(ErrorCode::kUsage,
+                  "--change is for the simulated table, and this is --hal ideal");
+    }
     return session::make_simulated_machine(arguments.name, machine);
   };
 }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "gcode/program_text.hpp"
 #include "hal/machine.hpp"
+#include "hal/mujoco/change.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
 #include "hal/rig/rig_machine.hpp"
@@ -40,6 +41,9 @@ session::MakeMachine machine_of(const HalArguments& arguments,
 /// that the command line of the run had.
 std::optional<gcode::ProgramText> program_of(const session::TraceOrigin& origin,
                                              const std::atomic<bool>& stop);
+
+/// What of the simulated table changes, as --change says it.
+Expected<std::vector<hal::mujoco::Change>> read_changes(const std::vector<std::string>& texts);
 
 /// "x" or "y" as an axis.
 hal::Axis axis_of(const std::string& name);

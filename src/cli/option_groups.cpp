@@ -116,6 +116,29 @@ void add_faults(CLI::App& command, std::vector<std::string>& faults) {
       ->type_name("KIND[:AXIS]@SECONDS");
 }
 
+void add_changes(CLI::App& command, std::vector<std::string>& changes) {
+  add_list(command, "--change", changes,
+           "Let something of the simulated table change while it runs, at once or slowly, as in "
+           "--change friction:x=1.3@2 or vref_gain:y=0.95@1+5 (repeatable)")
+      ->type_name("KIND:AXIS=VALUE@SECONDS[+RAMP]");
+}
+
+void add_shadow(CLI::App& command, ShadowArguments& shadow) {
+  const auto take = [&shadow](const std::vector<std::string>& given) {
+    shadow.is_wanted = true;
+    shadow.file = given.empty() ? "" : given.front();
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--shadow", take,
+          "Let the identified table run beside the machine and say what changes of it; FILE "
+          "(behind "
+          "PROGRAM) is what twin shadow --learn has learnt of healthy runs")
+      ->expected(0, 1)
+      ->allow_extra_args(false)
+      ->type_name("FILE.json");
+}
+
 void add_rig(CLI::App& command, RigArguments& rig) {
   command
       .add_option(
@@ -153,6 +176,7 @@ void add_hal(CLI::App& command, HalArguments& hal) {
       ->check(CLI::IsMember({"mujoco", "ideal", "rig", "linuxcnc"}))
       ->type_name("NAME")
       ->capture_default_str();
+  add_changes(command, hal.rig.changes);
   begin_group(command, "Rig, with --hal rig or linuxcnc");
   add_moving_rig(command, hal.rig);
 }

@@ -32,6 +32,9 @@ void add_reading(CLI::App& command, MachineArguments& machine);
 void add_curves(CLI::App& command, MachineArguments& machine);
 void add_simulated_hal(CLI::App& command, std::string& hal);
 void add_faults(CLI::App& command, std::vector<std::string>& faults);
+/// What of the simulated table changes while it runs.
+void add_changes(CLI::App& command, std::vector<std::string>& changes);
+void add_shadow(CLI::App& command, ShadowArguments& shadow);
 /// The rig that is looked at.
 void add_rig(CLI::App& command, RigArguments& rig);
 /// The rig that moves.

@@ -27,6 +27,7 @@ void add_options(CLI::App& command, RunArguments& run) {
                 "Say before the run with what probability the contour error stays within this",
                 [&run](double tolerance) { run.tolerance = tolerance; });
   begin_group(command, "While it runs");
+  add_shadow(command, run.shadow);
   add_overrides(command, run.overrides);
   command.add_flag("--realtime", run.is_on_wall_clock,
                    "Keep to the wall clock; keys: + - 0 to 9 feed override, space feed hold");
@@ -390,6 +391,7 @@ void add_options(CLI::App& command, RigEmulateArguments& emulate) {
       ->type_name("/NAME");
   add_duration(command, emulate.duration);
   add_faults(command, emulate.rig.faults);
+  add_changes(command, emulate.rig.changes);
 }
 
 }  // namespace twin::cli

@@ -20,6 +20,7 @@ void add_options(CLI::App& command, ReproduceArguments& arguments);
 void add_options(CLI::App& command, CircleArguments& arguments);
 void add_options(CLI::App& command, IdentifyArguments& arguments);
 void add_options(CLI::App& command, CompensateArguments& compensate);
+void add_options(CLI::App& command, ShadowCommandArguments& shadow);
 void add_options(CLI::App& command, FastestArguments& fastest);
 void add_options(CLI::App& command, ConvertArguments& arguments);
 void add_options(CLI::App& command, BatchArguments& arguments);

@@ -317,7 +317,8 @@ Expected<void> execute(const RigHomeArguments& arguments, const Environment& env
 // Emulate: a rig for other processes.
 
 Expected<void> execute(const RigEmulateArguments& arguments, const Environment& environment) {
-  TWIN_TRY(const auto machine, read_machine(arguments.machine, Verbosity::kNormal));
+  TWIN_TRY(auto machine, read_machine(arguments.machine, Verbosity::kNormal));
+  TWIN_TRY(machine.table.changes, read_changes(arguments.rig.changes));
   rig::emulator::ServeSettings settings;
   settings.name = shared_name(arguments.rig);
   settings.duration = arguments.duration;

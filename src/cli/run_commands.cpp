@@ -15,6 +15,7 @@
 #include "cli/commands.hpp"
 #include "cli/machines.hpp"
 #include "cli/run_command.hpp"
+#include "cli/shadowed_run.hpp"
 #include "config/find_file.hpp"
 #include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "live/live_view.hpp"
@@ -244,9 +245,12 @@ Expected<void> run_program(const RunArguments& arguments, const Environment& env
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const Audience audience, invite(arguments, session));
+  TWIN_TRY(const ShadowedRun shadowed,
+           ShadowedRun::open(arguments.shadow, arguments.results.verbosity, session));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
   TWIN_CHECK(companion.finish(result));
+  TWIN_CHECK(shadowed.finish(session));
   TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, arguments.video);
 }

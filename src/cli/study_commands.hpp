@@ -10,6 +10,7 @@ Expected<void> execute(const ReproduceArguments& arguments, const Environment& e
 Expected<void> execute(const CircleArguments& arguments, const Environment& environment);
 Expected<void> execute(const IdentifyArguments& arguments, const Environment& environment);
 Expected<void> execute(const CompensateArguments& arguments, const Environment& environment);
+Expected<void> execute(const ShadowCommandArguments& arguments, const Environment& environment);
 Expected<void> execute(const FastestArguments& arguments, const Environment& environment);
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment);
 Expected<void> execute(const BatchArguments& arguments, const Environment& environment);

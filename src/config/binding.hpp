@@ -63,7 +63,7 @@ std::vector<Binding> bindings(MachineFile& machine);
 /// The part of bindings() that is about the simulated table.
 std::vector<Binding> table_bindings(hal::mujoco::TableParams& table);
 
-/// The part of bindings() that is about monitors, correction, uncertainty and wall clock.
+/// The part of bindings() that is about monitors, correction, uncertainty, shadow and wall clock.
 std::vector<Binding> safety_bindings(MachineFile& machine);
 
 /// The part of bindings() that is about the real rig.

@@ -1,6 +1,6 @@
 #include "config/binding.hpp"
 
-// The settings of monitors, correction, uncertainty and wall clock.
+// The settings of monitors, correction, uncertainty, shadow and wall clock.
 namespace twin::config {
 namespace {
 
@@ -56,6 +56,16 @@ void add_uncertainty(std::vector<Binding>& list, UncertaintySettings& u) {
                   "the same of the offset of V-REF", 100.0});
 }
 
+void add_shadow(std::vector<Binding>& list, ShadowSettings& s) {
+  const char* section = "shadow";
+  list.push_back({section, "reaction", "", choice(s.stops, {"warn", "stop"}), 0.0, 0.0,
+                  "to a change that run --shadow finds: told, or a controlled brake as well"});
+  list.push_back(
+      {section, "false_alarm", "h", &s.hours, 1e-3, 1e9, "mean time between false alarms"});
+  list.push_back({section, "scale", "", &s.has_scale, 0.0, 0.0,
+                  "the table's position in the trace is measured, by a scale of its own"});
+}
+
 void add_realtime(std::vector<Binding>& list, RealtimeSettings& r) {
   const char* section = "realtime";
   list.push_back({section, "priority", "", &r.priority, 0.0, 99.0,
@@ -77,6 +87,7 @@ std::vector<Binding> safety_bindings(MachineFile& machine) {
   add_safety(list, machine.safety);
   add_compensation(list, machine.compensation);
   add_uncertainty(list, machine.uncertainty);
+  add_shadow(list, machine.shadow);
   add_realtime(list, machine.realtime);
   return list;
 }

@@ -48,6 +48,13 @@ struct UncertaintySettings {
   double offset = 0.1;      ///< of the offset of V-REF [-]
 };
 
+/// What watches a run, section [shadow].
+struct ShadowSettings {
+  bool stops = false;      ///< a finding brakes on the path and ends the run; else it is only told
+  double hours = 1000.0;   ///< mean time between false alarms [h]
+  bool has_scale = false;  ///< the position of the table is measured apart from the motor's encoder
+};
+
 /// Everything a machine file says, in base units.
 struct MachineFile {
   std::string name = "xy_table";  ///< the file's name without extension
@@ -61,6 +68,7 @@ struct MachineFile {
   std::array<motion::Gains, hal::kServoAxes> servo;
   CompensationSettings compensation;
   UncertaintySettings uncertainty;
+  ShadowSettings shadow;
   motion::SafetySettings safety;
   RealtimeSettings realtime;
   hal::mujoco::TableParams table;  ///< table.model is absolute once read

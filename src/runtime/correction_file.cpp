@@ -47,6 +47,7 @@ std::string hash_of_machine(const config::MachineFile& machine) {
   copy.home = {};
   copy.compensation.limit = 0.0;
   copy.uncertainty = {};
+  copy.shadow = {};
   copy.table.model = std::filesystem::path(machine.table.model).filename().string();
   for (hal::mujoco::AxisParams& axis : copy.table.axis) {
     axis.encoder.phase = 0.5;

@@ -39,6 +39,9 @@ Expected<pictures::PageRun> read_run(const fs::path& folder, const FindProgram& 
   pictures::PageRun run;
   run.summary = origin.summary;
   run.is_partial = origin.is_partial;
+  if (const auto shadow = read_whole_file(folder / kShadowName)) {
+    run.shadow = *shadow;
+  }
   TWIN_TRY(run.rows,
            pictures::read_page_rows(origin.trace, folder / "plots" / results::kLimitName));
   if (origin.machining_time && std::abs(*origin.machining_time - run.rows.last_time) >

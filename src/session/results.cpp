@@ -49,7 +49,7 @@ Expected<void> write_summary(const std::filesystem::path& folder,
 void remove_stale_results(const std::filesystem::path& folder, Results how,
                           results::TraceFiles trace) {
   using namespace results;
-  std::vector<std::string_view> names{"video.mp4", "report.html"};
+  std::vector<std::string_view> names{"video.mp4", "report.html", kShadowName};
   const bool is_whole = how == Results::kWhole;
   names.emplace_back(is_whole ? "summary.partial.json" : "summary.json");
   const auto add_unless = [&names](bool is_written, std::string_view name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "results/trace/trace_files.hpp"
@@ -16,6 +17,9 @@ Expected<void> prepare_output_file(const std::filesystem::path& file);
 /// The folder of a program's results: `chosen`, or renders/NAME where that is empty.
 std::filesystem::path result_folder(const std::filesystem::path& chosen,
                                     const std::filesystem::path& name);
+
+/// What the shadow of a run has seen, where it had one.
+inline constexpr std::string_view kShadowName = "shadow.json";
 
 /// Writes summary.json, or summary.partial.json for a run that failed.
 Expected<void> write_summary(const std::filesystem::path& folder, const runtime::RunResult& result);

@@ -53,6 +53,8 @@ Expected<Json> add_run(const PageRun& run) {
   json["thinned"] = run.rows.is_thinned;
   Json summary = parse_json(run.summary);
   json["summary"] = summary.is_object() ? std::move(summary) : Json::object();
+  Json shadow = parse_json(run.shadow);
+  json["shadow"] = shadow.is_object() ? std::move(shadow) : Json(nullptr);
   json["columns"] = Json::array();
   for (const PageColumn& column : run.rows.columns) {
     json["columns"].push_back(json_of(packer.add(column.name, column.values, column.step)));

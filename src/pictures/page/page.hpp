@@ -29,7 +29,8 @@ struct PageRun {
   bool is_live = false;     ///< it is under way: the page asks for its rows
   PageRows rows;
   std::optional<PageProgram> program;
-  std::string note;  ///< why there is no program; may be empty
+  std::string note;    ///< why there is no program; may be empty
+  std::string shadow;  ///< text of its shadow.json; empty: it had no shadow
 };
 
 /// The text of the page.

@@ -117,6 +117,7 @@ T.Page = class {
     T.showWorst(state);
     T.showErrors(state);
     T.showLimits(state);
+    T.showShadow(state);
     T.showHistogram(state);
     T.showFeeds(state);
     T.showSettings(state);

@@ -120,6 +120,36 @@ T.firstOfLine = (run, line) => {
   return best;
 };
 
+// What the shadow saw: a strip for each axis, how near its largest statistic came to the threshold.
+T.showShadow = (state) => {
+  const run = state.runs[0];
+  const host = T.el('shadow');
+  const shadow = state.runs.length > 1 ? null : run.meta.shadow;
+  host.hidden = !shadow;
+  if (!shadow) return;
+  const end = run.t[run.n - 1] || 1;
+  const axes = Object.entries(shadow.axes || {});
+  const strip = ([name, axis], k) => {
+    const t = axis.strip.t_s;
+    const bars = t.map((at, i) => {
+      const level = axis.strip.level[i];
+      const share = Math.min(1, Math.log1p(level) / Math.log1p(10));
+      const width = Math.max(1, ((t[i + 1] ?? end) - at) / end * 1000);
+      return `<rect x="${(at / end * 1000).toFixed(1)}" y="${(28 * (1 - share) + 40 * k).toFixed(1)}" width="${Math.min(width, 20).toFixed(1)}" height="${(28 * share).toFixed(1)}" fill="${level >= 1 ? 'var(--bad)' : T.category(k)}"><title>${name} ${T.number(at, 2)} s: ${T.number(level, 2)} of the threshold</title></rect>`;
+    }).join('');
+    const threshold = 28 * (1 - Math.log1p(1) / Math.log1p(10)) + 40 * k;
+    const found = axis.finding ? `<line x1="${axis.finding.found_s / end * 1000}" x2="${axis.finding.found_s / end * 1000}" y1="${40 * k}" y2="${28 + 40 * k}" stroke="var(--bad)" stroke-width="2"/>` : '';
+    return `${bars}<line x1="0" x2="1000" y1="${threshold}" y2="${threshold}" stroke="currentColor" stroke-dasharray="4 4" stroke-width="0.7"/>${found}`;
+  };
+  const row = ([name, axis]) => {
+    const found = axis.finding_at_the_end;
+    const text = found ? `<b>${T.escape(found.words)}</b>${found.cannot_be_told_from.length ? `, cannot be told from ${T.escape(found.cannot_be_told_from.join(', '))}` : ''}` : 'nothing has changed';
+    return `<tr${found ? ` class="go" data-time="${found.since_s}" tabindex="0"` : ''}><td>${name}</td><td class="text">${text}</td><td>${found ? T.number(found.since_s, 2) : '–'}</td><td>${found ? found.since_line : '–'}</td><td>${found ? T.number(axis.finding.found_s, 2) : '–'}</td></tr>`;
+  };
+  const more = [shadow.switched_off ? `Switched off: ${shadow.switched_off}.` : '', `One false alarm in ${T.number(shadow.false_alarm_hours, 0)} h.`, ...shadow.trends].filter(Boolean);
+  host.innerHTML = `<h2>Shadow <span class="unit">learnt from ${T.escape((shadow.learnt_from || []).slice(0, 5).join(', '))}</span></h2><svg viewBox="0 0 1000 ${40 * axes.length}" preserveAspectRatio="none" style="width:100%;height:${44 * axes.length}px" role="img" aria-label="Statistic over threshold">${axes.map(strip).join('')}</svg><div class="scroll"><table><thead><tr><th>axis</th><th class="text">what has changed</th><th>since, s</th><th>line</th><th>seen at, s</th></tr></thead><tbody>${axes.map(row).join('')}</tbody></table></div><p class="unit">${more.map(T.escape).join(' ')}</p>`;
+};
+
 // A table of the errors, with the place of each maximum; a column for each of several runs.
 T.showErrors = (state) => {
   const runs = state.runs;

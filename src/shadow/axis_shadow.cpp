@@ -1,0 +1,158 @@
+#include "shadow/axis_shadow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace twin::shadow {
+namespace {
+
+/// By so much must the logarithm of the likelihood of one cause exceed that of others, twice: odds
+/// of 400 to 1 for white noise.
+constexpr double kMargin = 12.0;
+/// And by this share of what is explained: signatures are of first order.
+constexpr double kRelativeMargin = 0.15;
+constexpr double kPatience = 1.2;          // of motion, until causes are named that are as good [s]
+constexpr double kLeastTime = 0.5;         // of motion, before any cause is named [s]
+constexpr int kLeastBlocks = 3;            // in a row that must name the same cause
+constexpr std::size_t kMostPoints = 2000;  // of the strip
+
+}  // namespace
+
+AxisShadow::AxisShadow(AxisObserver observer, const std::vector<ChannelBaseline>& baselines,
+                       double period, double hours)
+    : observer_(std::move(observer)), period_(period) {
+  const double block = static_cast<double>(Evidence::kBlock) * period;
+  for (std::size_t i = 0; i < baselines.size(); ++i) {
+    const ChannelBaseline& baseline = baselines[i];
+    Whitener whitener(baseline.coefficients, is_differenced(baseline.kind));
+    Evidence evidence(baseline,
+                      shapes_of(whitener, observer_.count_step(i), observer_.force_response(i)));
+    channels_.push_back({baseline,
+                         std::move(whitener),
+                         std::move(evidence),
+                         threshold_of(hours, block, baseline.windows),
+                         {},
+                         {},
+                         std::nullopt,
+                         {},
+                         0});
+  }
+  strip_.reserve(kMostPoints + 1);
+}
+
+Finding AxisShadow::judge(const Channel& channel) const {
+  auto all = channel.evidence.hypotheses();
+  std::ranges::sort(all, std::greater<>(), &Hypothesis::evidence);
+  Finding finding;
+  finding.cause = all.front();
+  finding.statistic = std::ranges::max_element(all, {}, &Hypothesis::statistic)->statistic;
+  finding.threshold = channel.threshold;
+  finding.channel = channel.baseline.kind;
+  finding.found = now_;
+  const auto best = static_cast<std::size_t>(finding.cause.cause);
+  const double excess = best < kParameters ? channel.baseline.excess[best] : 1.0;
+  const double margin = std::max(kMargin * excess, kRelativeMargin * finding.cause.evidence);
+  for (auto other = all.begin() + 1; other != all.end(); ++other) {
+    if (other->evidence > 0.0 && finding.cause.evidence - other->evidence < margin) {
+      finding.or_else.push_back(other->cause);
+    }
+  }
+  return finding;
+}
+
+void AxisShadow::note_level(double level) {
+  if (blocks_++ % blocks_a_point_ == 0) {
+    strip_.push_back({now_.time, level});
+  } else if (!strip_.empty()) {
+    strip_.back().level = std::max(strip_.back().level, level);
+  }
+  if (strip_.size() > kMostPoints) {
+    for (std::size_t i = 0; i < kMostPoints / 2; ++i) {
+      strip_[i] = {strip_[2 * i].time, std::max(strip_[2 * i].level, strip_[2 * i + 1].level)};
+    }
+    strip_.resize(kMostPoints / 2);
+    blocks_a_point_ *= 2;
+  }
+}
+
+bool AxisShadow::test(Channel& channel) {
+  const auto& block = channel.evidence.blocks().back();
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    channel.score[i] += block.score[i];
+    channel.information[i] += block.information[i];
+  }
+  const auto all = channel.evidence.hypotheses();
+  const double largest = std::ranges::max_element(all, {}, &Hypothesis::statistic)->statistic;
+  if (&channel == channels_.data()) {
+    note_level(largest / channel.threshold);
+  } else if (!strip_.empty()) {
+    strip_.back().level = std::max(strip_.back().level, largest / channel.threshold);
+  }
+  if (finding_ || largest < channel.threshold) {
+    return false;
+  }
+  channel.crossed = channel.crossed ? channel.crossed : now_;
+  Finding finding = judge(channel);
+  finding.noticed = *channel.crossed;
+  const double waited = now_.moving - channel.crossed->moving;
+  channel.same = finding.cause.cause == channel.favourite ? channel.same + 1 : 1;
+  channel.favourite = finding.cause.cause;
+  const bool is_jump =
+      channel.favourite == Cause::kForce && finding.channel == ChannelKind::kPosition;
+  const bool is_clear =
+      finding.or_else.empty() && !is_jump && channel.same >= kLeastBlocks && waited >= kLeastTime;
+  if (!is_clear && waited < kPatience) {
+    return false;
+  }
+  found_in_ = static_cast<std::size_t>(&channel - channels_.data());
+  finding_ = std::move(finding);
+  return true;
+}
+
+bool AxisShadow::step(const AxisSample& sample, double time, std::int64_t line) {
+  const Observation seen = observer_.step(sample);
+  now_.time = time;
+  now_.line = line;
+  now_.moving += seen.moves ? period_ : 0.0;
+  bool is_new = false;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    Channel& channel = channels_[i];
+    SignalRow white;
+    if (!channel.whitener.step(seen.row[i], white) || !seen.moves) {
+      channel.evidence.interrupt();
+    } else if (channel.evidence.add(white, seen.direction, seen.counts, now_)) {
+      is_new = test(channel) || is_new;
+    }
+  }
+  return is_new;
+}
+
+std::optional<Finding> AxisShadow::last_finding() const {
+  if (!finding_) {
+    return std::nullopt;
+  }
+  Finding last = judge(channels_[found_in_]);
+  last.found = finding_->found;
+  last.noticed = finding_->noticed;
+  return last;
+}
+
+std::vector<AxisShadow::Estimate> AxisShadow::estimates() const {
+  std::vector<Estimate> list;
+  for (const Channel& channel : channels_) {
+    for (std::size_t i = 0; i < kParameters; ++i) {
+      const double information = channel.information[i];
+      if (information <= 0.0) {
+        continue;
+      }
+      const double noise = channel.baseline.excess[i] * channel.baseline.variance * information;
+      const double model = channel.baseline.scatter[i] * information;
+      list.push_back({channel.baseline.kind, static_cast<Cause>(i), channel.score[i] / information,
+                      std::sqrt(noise + model * model) / information});
+    }
+  }
+  return list;
+}
+
+}  // namespace twin::shadow

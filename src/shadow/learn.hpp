@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/error.hpp"
+#include "shadow/baseline.hpp"
+#include "shadow/signal_row.hpp"
+
+namespace twin::shadow {
+
+/// One channel of one axis over a recording.
+struct ChannelSeries {
+  std::vector<SignalRow> rows;
+  std::vector<double> counts;     ///< way of the measured position in each period [counts]
+  std::vector<char> moves;        ///< whether the axis is in motion there
+  std::vector<double> direction;  ///< as Observation has it
+};
+
+/// Finds what the healthy machine makes of a channel.
+///
+/// The whitening filter is an autoregression on the residual of the motion. Then the means of the
+/// parameters come by least squares over all of it, held near 0 as loosely as the parameters are
+/// known at all, and their signatures are taken off; filter and means are found twice. Over windows
+/// of 0.25 s, 1 s and 4 s of motion, scores h with information G then tell the excess q and the
+/// scatter t of var h = q s^2 G + t^2 G^2.
+///
+/// @param known  deviations of the parameters  @param limit  their largest plausible changes
+/// @param step   of the residual that a lost count makes; 0: none
+/// @param force_response  of the residual to a force of 1 N that begins, period by period; may be
+///                        empty
+/// @returns an error where the motion is too short
+Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<ChannelSeries>& series,
+                                        const PerParameter& known, const PerParameter& limit,
+                                        double step, const std::vector<double>& force_response);
+
+/// Least motion of an axis that something can be learnt from, in periods.
+inline constexpr std::size_t kLeastMotion = 1000;
+
+}  // namespace twin::shadow
