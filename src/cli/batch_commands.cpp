@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/commands.hpp"
+#include "cli/study_commands.hpp"
 #include "cli/terminal.hpp"
 #include "core/parallel_for.hpp"
 #include "core/wall_clock.hpp"

@@ -6,7 +6,7 @@
 #include "cli/arguments.hpp"
 #include "core/error.hpp"
 
-/// The commands, each of which returns what keeps the exit status from being 0.
+/// The commands of one run, each of which returns what keeps the exit status from being 0.
 namespace twin::cli {
 
 /// What all commands are executed with.
@@ -22,27 +22,11 @@ Expected<void> execute(const CheckArguments& arguments, const Environment& envir
 Expected<void> execute(const RenderArguments& arguments, const Environment& environment);
 Expected<void> execute(const ReportArguments& arguments, const Environment& environment);
 Expected<void> execute(const SettingsArguments& arguments, const Environment& environment);
-Expected<void> execute(const CompareArguments& arguments, const Environment& environment);
-Expected<void> execute(const ReproduceArguments& arguments, const Environment& environment);
-Expected<void> execute(const CircleArguments& arguments, const Environment& environment);
-Expected<void> execute(const IdentifyArguments& arguments, const Environment& environment);
-Expected<void> execute(const CompensateArguments& arguments, const Environment& environment);
-Expected<void> execute(const FastestArguments& arguments, const Environment& environment);
-Expected<void> execute(const ConvertArguments& arguments, const Environment& environment);
-Expected<void> execute(const BatchArguments& arguments, const Environment& environment);
-Expected<void> execute(const SweepArguments& arguments, const Environment& environment);
-Expected<void> execute(const TuneArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigProbeArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigMonitorArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigCheckArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigJogArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigHomeArguments& arguments, const Environment& environment);
 Expected<void> execute(const RigEmulateArguments& arguments, const Environment& environment);
-Expected<void> execute(const PlantArguments& arguments, const Environment& environment);
-Expected<void> execute(const LinuxcncConfigArguments& arguments, const Environment& environment);
-Expected<void> execute(const LinuxcncEvaluateArguments& arguments, const Environment& environment);
-
-/// What is wrong with the name of a dialect of `twin convert --to`; empty for a sound one.
-std::string dialect_error(const std::string& name);
 
 }  // namespace twin::cli

@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "cli/predictions.hpp"
+#include "cli/run_command.hpp"
+#include "cli/study_commands.hpp"
 #include "cli/terminal.hpp"
 #include "runtime/correction_file.hpp"
 #include "session/results.hpp"
@@ -130,6 +132,36 @@ Expected<void> CorrectedRun::learn_from(const runtime::RunResult& result,
                            folder.correction().string()));
   }
   return {};
+}
+
+namespace {
+
+class StudiedRun : public RunCompanion {
+ public:
+  StudiedRun(const RunArguments& arguments, const std::atomic<bool>& stop)
+      : arguments_(arguments), stop_(stop) {}
+
+  Expected<void> prepare(session::Request& request) override {
+    const Verbosity verbosity = arguments_.results.verbosity;
+    TWIN_TRY(corrected_, CorrectedRun::prepare(arguments_.correction, request, verbosity, stop_));
+    return predict_errors(arguments_.tolerance, verbosity, stop_, request);
+  }
+
+  Expected<void> finish(const runtime::RunResult& result) override {
+    return corrected_.learn_from(result, stop_);
+  }
+
+ private:
+  const RunArguments& arguments_;
+  const std::atomic<bool>& stop_;
+  CorrectedRun corrected_;
+};
+
+}  // namespace
+
+Expected<void> run_with_studies(const RunArguments& arguments, const Environment& environment) {
+  StudiedRun companion(arguments, environment.stop);
+  return run_program(arguments, environment, companion);
 }
 
 Expected<void> execute(const CompensateArguments& arguments, const Environment& environment) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/arguments.hpp"
+#include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "motion/correction/correction_follower.hpp"
 #include "runtime/run.hpp"
@@ -34,5 +35,8 @@ class CorrectedRun {
   std::shared_ptr<const motion::Correction> correction_;
   std::unique_ptr<MemoryTrace> trace_;
 };
+
+/// `twin run` with its correction, what it learns and its prediction, of which each may be absent.
+Expected<void> run_with_studies(const RunArguments& arguments, const Environment& environment);
 
 }  // namespace twin::cli

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "cli/study_commands.hpp"
 #include "core/atomic_file.hpp"
 #include "session/results.hpp"
 #include "studies/identify/candidates.hpp"

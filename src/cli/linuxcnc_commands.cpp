@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "cli/study_commands.hpp"
 #include "cli/terminal.hpp"
 #include "config/find_file.hpp"
 #include "hal/linuxcnc/serve_plant.hpp"

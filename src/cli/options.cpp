@@ -4,7 +4,6 @@
 #include <charconv>
 #include <system_error>
 
-#include "cli/commands.hpp"
 #include "cli/option_groups.hpp"
 
 namespace twin::cli {
@@ -88,6 +87,7 @@ void add_options(CLI::App& command, RenderArguments& render) {
       ->type_name("DIR");
   add_machine_file(command, render.machine, "Machine file whose model the video shows");
   add_no_plots(command, render.has_plots);
+  add_paper(command, render.paper);
   add_quiet(command, render.verbosity);
   add_video(command, render.video);
 }
@@ -171,6 +171,7 @@ void add_options(CLI::App& command, CircleArguments& circle) {
   add_curves(command, circle.machine);
   add_hal(command, circle.hal);
   add_results(command, circle.results, "circle");
+  add_paper(command, circle.results.paper);
   add_trace(command, circle.results);
 }
 
@@ -222,7 +223,6 @@ void add_options(CLI::App& command, ConvertArguments& convert) {
       .add_option("--to", convert.dialect,
                   "g5.2: LinuxCNC; g6.2: LinuxCNC 2.10; fanuc: G06.2; bspline: SINUMERIK")
       ->required()
-      ->check(dialect_error)
       ->type_name("DIALECT");
   add_machine(command, convert.machine);
   add_reading(command, convert.machine);

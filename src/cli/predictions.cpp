@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "cli/study_commands.hpp"
 #include "core/atomic_file.hpp"
 #include "runtime/correction_file.hpp"
 #include "session/results.hpp"

@@ -13,9 +13,8 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/corrected_run.hpp"
 #include "cli/machines.hpp"
-#include "cli/predictions.hpp"
+#include "cli/run_command.hpp"
 #include "config/find_file.hpp"
 #include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "live/live_view.hpp"
@@ -143,7 +142,7 @@ Expected<void> report_run(const session::Session& session, const runtime::RunRes
   if (results.has_json) {
     print_out("{}", results::to_json(result.summary));
   } else if (results.verbosity == Verbosity::kNormal) {
-    print_out("{}", results::to_table(result.summary, session.machine().limits));
+    put_out(with_bold_headings(results::to_table(result.summary, session.machine().limits)));
   }
   if (!result.failure) {
     return {};
@@ -181,7 +180,7 @@ Expected<void> make_pictures(const session::Session& session, ResultArguments re
   if (results.has_plots && has_trace) {
     Progress progress("plots", results.verbosity);
     progress.show(0.0);
-    TWIN_CHECK(session.draw_figures());
+    TWIN_CHECK(session.draw_figures(results.paper));
   }
   if (video.is_wanted) {
     Progress progress("video", results.verbosity);
@@ -229,25 +228,32 @@ Expected<Audience> invite(const RunArguments& arguments, session::Session& sessi
 
 }  // namespace
 
-Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
+bool needs_studies(const RunArguments& arguments) {
+  return arguments.correction.is_wanted || !arguments.correction.learning.empty() ||
+         arguments.tolerance.has_value();
+}
+
+Expected<void> run_program(const RunArguments& arguments, const Environment& environment,
+                           RunCompanion& companion) {
   TWIN_TRY(session::Request request,
            request_of(arguments.program, arguments.machine, arguments.overrides, arguments.results,
                       environment.stop));
   request.command = environment.command_line;
   request.make_machine = machine_of(arguments.hal, arguments.correction.plant);
-  TWIN_TRY(CorrectedRun corrected,
-           CorrectedRun::prepare(arguments.correction, request, arguments.results.verbosity,
-                                 environment.stop));
-  TWIN_CHECK(
-      predict_errors(arguments.tolerance, arguments.results.verbosity, environment.stop, request));
+  TWIN_CHECK(companion.prepare(request));
   request.pace = arguments.is_on_wall_clock ? session::Pace::kWallClock : session::Pace::kOwn;
   TWIN_TRY(session::Session session, session::Session::open(std::move(request)));
   TWIN_TRY(const Audience audience, invite(arguments, session));
   TWIN_TRY(const runtime::RunResult result, run_with_operator(session, arguments.results.verbosity,
                                                               arguments.control, environment.stop));
-  TWIN_CHECK(corrected.learn_from(result, environment.stop));
+  TWIN_CHECK(companion.finish(result));
   TWIN_CHECK(report_run(session, result, arguments.results));
   return make_pictures(session, arguments.results, arguments.video);
+}
+
+Expected<void> execute(const RunArguments& arguments, const Environment& environment) {
+  RunCompanion none;
+  return run_program(arguments, environment, none);
 }
 
 Expected<void> execute(const PlanArguments& arguments, const Environment& environment) {
@@ -277,7 +283,7 @@ Expected<void> execute(const RenderArguments& arguments, const Environment& envi
     progress.show(0.0);
     TWIN_CHECK(session::draw_figures({arguments.folder, program_of(origin, environment.stop),
                                       origin.program, origin.kind, origin.trace.filename().string(),
-                                      origin.reading}));
+                                      origin.reading, arguments.paper}));
   }
   if (arguments.video.is_wanted) {
     Progress progress("video", arguments.verbosity);
@@ -310,7 +316,7 @@ Expected<void> execute(const ReportArguments& arguments, const Environment& envi
 // Help and version.
 
 Expected<void> execute(const TextArguments& arguments, const Environment&) {
-  print_out("{}", arguments.text);
+  put_out(with_bold_headings(arguments.text));
   return {};
 }
 

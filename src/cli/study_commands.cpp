@@ -4,10 +4,10 @@
 
 #include <system_error>
 
-#include "cli/commands.hpp"
 #include "cli/compare_linuxcnc.hpp"
 #include "cli/compare_runs.hpp"
 #include "cli/machines.hpp"
+#include "cli/study_commands.hpp"
 #include "config/find_file.hpp"
 #include "config/nearest_name.hpp"
 #include "core/atomic_file.hpp"
@@ -233,6 +233,7 @@ Expected<void> execute(const CircleArguments& arguments, const Environment& envi
   test.make_machine = machine_of(arguments.hal);
   test.command = environment.command_line;
   test.trace = arguments.results.trace;
+  test.paper = arguments.results.paper;
   test.radius = arguments.radius;
   test.feedrate = arguments.feedrate.value_or(test.feedrate);
   test.folder = session::result_folder(arguments.results.folder, "circle");
@@ -267,18 +268,21 @@ std::filesystem::path converted_file(const ConvertArguments& arguments,
   return std::filesystem::path("renders") / program.stem() / name;
 }
 
-}  // namespace
-
-std::string dialect_error(const std::string& name) {
+/// Refuses a dialect that there is not.
+Expected<void> check_dialect(const std::string& name) {
   if (studies::convert::make_dialect(name) != nullptr) {
     return {};
   }
   const std::vector<std::string> names = studies::convert::dialect_names();
-  return fmt::format("unknown dialect {}{} (there are {})", name, config::did_you_mean(name, names),
-                     fmt::join(names, ", "));
+  return fail(ErrorCode::kUsage,
+              fmt::format("--to: unknown dialect {}{} (there are {})", name,
+                          config::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+}  // namespace
+
 Expected<void> execute(const ConvertArguments& arguments, const Environment& environment) {
+  TWIN_CHECK(check_dialect(arguments.dialect));
   TWIN_TRY(const auto machine, read_machine(arguments.machine, arguments.verbosity));
   TWIN_TRY(const auto program,
            read_program(arguments.program.name, arguments.machine, environment.stop));

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
 #include "cli/machines.hpp"
+#include "cli/study_commands.hpp"
 #include "cli/terminal.hpp"
 #include "session/results.hpp"
 #include "studies/tune/tune.hpp"

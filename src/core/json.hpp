@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace twin {
 
@@ -37,20 +38,26 @@ inline std::optional<double> number_in(const Json& json, const char* key) {
                                                      : std::nullopt;
 }
 
+// What takes long to compile is in one source.
+
+/// The JSON value that a text is; a value with is_discarded() when it is none.
+Json parse_json(std::string_view text);
+
+/// Where a text stops being JSON [byte, from 1]; 0 when it is JSON.
+std::size_t json_error(std::string_view text);
+
 /// Text of a JSON file: indented, with a line feed at its end. A number that is not finite is
 /// written as null, and bytes that are no UTF-8 are replaced.
-inline std::string to_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string to_text(const Json& json);
+
+/// The same on one line, without a line feed.
+std::string to_line(const Json& json);
+
+/// The same on one line of ASCII alone: other characters are escapes.
+std::string to_ascii_line(const Json& json);
 
 /// JSON on one line as the content of an HTML element: every "<" is written as an escape, so that
 /// nothing in it ends the element.
-inline std::string inside_html(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
-}
+std::string inside_html(const Json& json);
 
 }  // namespace twin

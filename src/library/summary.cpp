@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "config/nearest_name.hpp"
+#include "core/json.hpp"
 #include "library/inside.hpp"
 
 namespace twin {
 namespace {
 
 /// Takes a value of the JSON, and those in it, under its name.
-void collect(const nlohmann::ordered_json& json, const std::string& name, auto& data) {
+void collect(const Json& json, const std::string& name, auto& data) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items()) {
       collect(value, name.empty() ? key : name + "." + key, data);
@@ -50,7 +49,7 @@ Summary Inside::summary(const results::Summary& summary, const Limits& limits) {
   auto data = std::make_shared<Summary::Data>();
   data->json = results::to_json(summary);
   data->table = results::to_table(summary, limits);
-  collect(nlohmann::ordered_json::parse(data->json), "", *data);
+  collect(parse_json(data->json), "", *data);
   return Summary(std::move(data));
 }
 

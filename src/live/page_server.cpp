@@ -9,18 +9,17 @@
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "core/json.hpp"
 #include "pictures/page/page.hpp"
 
 namespace twin::live {
 namespace {
 
 using namespace std::chrono_literals;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostRowsAnEvent = 2000;
 constexpr std::size_t kThreads = 4;          // browsers that are served at a time
@@ -53,7 +52,7 @@ std::string summary_of(const LiveRun& run) {
     json["settings"][setting.section][setting.key] =
         std::visit([](const auto& value) { return Json(value); }, setting.value);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return to_line(json);
 }
 
 Expected<std::string> page_of(const LiveRun& run) {
@@ -98,7 +97,7 @@ std::string Server::event(std::size_t from, std::size_t to) const {
     const auto begin = kept.begin() + static_cast<std::ptrdiff_t>(row * names.size());
     list.push_back(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(names.size())));
   }
-  return "data: " + Json{{"names", names}, {"rows", std::move(list)}}.dump() + "\n\n";
+  return "data: " + to_line({{"names", names}, {"rows", std::move(list)}}) + "\n\n";
 }
 
 /// The next event for a browser. @returns false when it is gone

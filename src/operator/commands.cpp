@@ -5,12 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "core/json.hpp"
 
 namespace twin::operator_station {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using runtime::kHighestOverride;
 using runtime::OperatorPanel;
 
@@ -22,22 +22,18 @@ std::string_view name_of(runtime::MotionState state) {
   return kStates[static_cast<std::size_t>(state)];
 }
 
-std::string written(const Json& json) {
-  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
-
-std::string error(const std::string& text) { return written({{"error", text}}); }
+std::string error(const std::string& text) { return to_ascii_line({{"error", text}}); }
 
 std::string status(const OperatorPanel& panel) {
   const OperatorPanel::Display shown = panel.display();
   const OperatorPanel::Wish wish = panel.wish();
-  return written({{"state", name_of(shown.state)},
-                  {"t_s", shown.time},
-                  {"override_percent", wish.percent},
-                  {"hold", wish.is_held},
-                  {"planned_for_percent", shown.percent},
-                  {"feedrate_mm_per_s", shown.feedrate},
-                  {"line", shown.line}});
+  return to_ascii_line({{"state", name_of(shown.state)},
+                        {"t_s", shown.time},
+                        {"override_percent", wish.percent},
+                        {"hold", wish.is_held},
+                        {"planned_for_percent", shown.percent},
+                        {"feedrate_mm_per_s", shown.feedrate},
+                        {"line", shown.line}});
 }
 
 std::string set_override(std::string_view text, OperatorPanel& panel) {

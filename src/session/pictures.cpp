@@ -2,11 +2,11 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "config/machine_file.hpp"
+#include "core/json.hpp"
 #include "pictures/plot/figures.hpp"
 #include "pictures/video/video.hpp"
 #include "results/trace/trace_files.hpp"
@@ -16,17 +16,16 @@
 namespace twin::session {
 namespace {
 
-std::string text_of(const nlohmann::json& json, const char* key) {
+std::string text_of(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
 }
 
 /// How a program was read, by the settings of a summary; as usual where it has none of them.
-gcode::ReaderOptions reading_of(const nlohmann::json& summary) {
+gcode::ReaderOptions reading_of(const Json& summary) {
   config::MachineFile machine;
-  const auto settings =
-      summary.value(nlohmann::json::json_pointer("/settings/program"), nlohmann::json::object());
+  const auto settings = summary.value(Json::json_pointer("/settings/program"), Json::object());
   for (const auto& [key, value] : settings.items()) {
-    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    const std::string text = value.is_string() ? value.get<std::string>() : to_line(value);
     if (!text.empty()) {  // a setting that is none any more is left as it is
       static_cast<void>(config::apply_override(machine, "program." + key + "=" + text));
     }
@@ -37,8 +36,8 @@ gcode::ReaderOptions reading_of(const nlohmann::json& summary) {
 /// "dolphin.nc, simulated" where the summary beside the trace says so.
 std::string video_title(const std::string& title, const std::filesystem::path& folder) {
   const auto origin = read_origin(folder);
-  const auto json = nlohmann::json::parse(origin ? origin->summary : "", nullptr, false);
-  const bool is_simulated = json.is_object() && json.value("simulated", nlohmann::json()) == true;
+  const auto json = parse_json(origin ? origin->summary : "");
+  const bool is_simulated = json.is_object() && json.value("simulated", Json()) == true;
   return is_simulated ? title + ", simulated" : title;
 }
 
@@ -55,7 +54,7 @@ Expected<TraceOrigin> read_origin(const std::filesystem::path& folder) {
                                 file.string(), 0, 0});
   }
   origin.summary.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-  const auto json = nlohmann::json::parse(origin.summary, nullptr, false);
+  const auto json = parse_json(origin.summary);
   if (!json.is_object() || !json.contains("program") || !json["program"].is_string()) {
     return tl::unexpected(
         Error{ErrorCode::kFile, "is not the summary of a run", file.string(), 0, 0});
@@ -86,6 +85,7 @@ Expected<void> draw_figures(const FigureRequest& request) {
   if (request.program) {
     input.programmed = programmed_outline(*request.program, Rapids::kDrawn, request.reading).points;
   }
+  input.paper = request.paper;
   input.plan_only = request.kind == TraceKind::kPlan;
   TWIN_CHECK(pictures::write_figures(input));
   return {};

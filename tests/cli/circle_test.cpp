@@ -1,16 +1,15 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/json.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
 
 namespace twin::cli {
 namespace circle_test {
 
-using ::testing::HasSubstr;
-using Json = nlohmann::ordered_json;
 using test::content;
+using ::testing::HasSubstr;
 
 class CircleCommand : public test::CliTest {
  protected:
@@ -20,7 +19,7 @@ class CircleCommand : public test::CliTest {
     const auto result = twin(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, "");
-    return Json::parse(content(folder / (out + "/circle.json")));
+    return parse_json(content(folder / (out + "/circle.json")));
   }
 
   void expect_refused(const std::vector<std::string>& more, int status,

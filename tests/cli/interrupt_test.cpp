@@ -1,8 +1,8 @@
 #include <chrono>
 #include <csignal>
-#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/json.hpp"
 #include "core/limits.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
@@ -48,7 +48,7 @@ TEST_P(Interrupt, BrakesOnThePathAndLeavesATraceNamedAsPartial) {
   EXPECT_EQ(rows.last("y_cmd_mm"), 0.0);
   EXPECT_LT(rows.last("x_cmd_mm"), 150.0);
   test::expect_within_limits(rows.column("x_cmd_mm"), 0.001, Limits{}, 10.0);
-  const auto summary = nlohmann::json::parse(test::content(folder / "out/summary.partial.json"));
+  const auto summary = parse_json(test::content(folder / "out/summary.partial.json"));
   EXPECT_NEAR(summary["machining_time_s"].get<double>(), rows.last("t_s"), 1e-9);
 }
 

@@ -6,10 +6,10 @@
 
 #include <chrono>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/descriptor.hpp"
+#include "core/json.hpp"
 #include "core/limits.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
@@ -18,12 +18,12 @@
 namespace twin::cli {
 namespace override_test {
 
-using nlohmann::json;
+using json = twin::Json;
 using ::testing::HasSubstr;
 
 class OverrideCli : public test::CliTest {
  protected:
-  json summary() const { return json::parse(test::content(folder / "out/summary.json")); }
+  json summary() const { return parse_json(test::content(folder / "out/summary.json")); }
   test::ChildResult run(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"run",   "ok.nc", "--hal",     "ideal",
                                        "--out", "out",   "--no-plots"};
@@ -75,8 +75,7 @@ json ask(const std::filesystem::path& path, const std::string& line) {
                 static_cast<ssize_t>(text.size()));
       char bytes[1024];
       const ssize_t count = ::recv(connection.get(), bytes, sizeof(bytes), 0);
-      return json::parse(std::string(bytes, static_cast<std::size_t>(std::max<ssize_t>(count, 0))),
-                         nullptr, false);
+      return parse_json(std::string(bytes, static_cast<std::size_t>(std::max<ssize_t>(count, 0))));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

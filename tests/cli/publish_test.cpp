@@ -2,9 +2,8 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/descriptor.hpp"
+#include "core/json.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/trace_rows.hpp"
 
@@ -41,8 +40,7 @@ TEST_F(Publish, RowsAreThoseOfTheTrace) {
   int received = 0;
   for (ssize_t size = 0; (size = recv(socket.get(), text.data(), text.size(), MSG_DONTWAIT)) > 0;
        ++received) {
-    const auto json =
-        nlohmann::json::parse(std::string_view(text.data(), static_cast<std::size_t>(size)));
+    const auto json = parse_json(std::string_view(text.data(), static_cast<std::size_t>(size)));
     const auto row = static_cast<std::size_t>(std::lround(json["t_s"].get<double>() / 1e-3));
     ASSERT_EQ(json["timestamp"], json["t_s"]);
     ASSERT_EQ(json["x_cmd_mm"].get<double>(), rows.column("x_cmd_mm")[row]);

@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
 
@@ -21,11 +21,11 @@ class Report : public test::CliTest {
   }
 
   /// What the page knows of its runs.
-  nlohmann::json runs_of(const std::string& page) const {
+  Json runs_of(const std::string& page) const {
     const std::string text = content(folder / page);
     const std::string mark = "id=\"runs\">";
     const std::size_t at = text.find(mark) + mark.size();
-    return nlohmann::json::parse(text.substr(at, text.find("</script>", at) - at));
+    return parse_json(text.substr(at, text.find("</script>", at) - at));
   }
 
   void expect_error(const std::vector<std::string>& arguments, const std::string& text) const {
@@ -47,7 +47,7 @@ TEST_F(Report, OfARunIsTheSameAsThatOfItsFolder) {
   EXPECT_EQ(content(folder / "again.html"), page);
   const auto runs = runs_of("out/report.html");
   ASSERT_EQ(runs.size(), 1U);
-  EXPECT_EQ(runs[0]["summary"], nlohmann::json::parse(content(folder / "out/summary.json")));
+  EXPECT_EQ(runs[0]["summary"], parse_json(content(folder / "out/summary.json")));
   EXPECT_GT(runs[0]["text_bytes"], 0);
 }
 

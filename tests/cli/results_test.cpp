@@ -1,7 +1,7 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/json.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/program_text.hpp"
@@ -11,7 +11,6 @@
 namespace twin::cli {
 namespace results_test {
 
-using Json = nlohmann::ordered_json;
 using test::content;
 
 class Results : public test::CliTest {
@@ -23,7 +22,7 @@ class Results : public test::CliTest {
     const auto result = twin(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, "");
-    return Json::parse(content(folder / (out + "/summary.json")));
+    return parse_json(content(folder / (out + "/summary.json")));
   }
 };
 
@@ -250,7 +249,7 @@ TEST_F(Results, ColumnsAreThoseThatAreChosen) {
   run("run", "out", {"--columns", "t_s,path_mm,x_torque_Nm,x_friction_N"});
   EXPECT_EQ(first_line(content(folder / "out/trace.csv")), "t_s,path_mm,x_torque_Nm,x_friction_N");
   const test::TraceRows rows(folder / "out/trace.csv");
-  const Json summary = Json::parse(content(folder / "out/summary.json"));
+  const Json summary = parse_json(content(folder / "out/summary.json"));
   EXPECT_NEAR(rows.last("path_mm"), summary["path_length_mm"].get<double>(), 0.05);
   double largest = 0.0;
   for (const double friction : rows.column("x_friction_N")) {
@@ -290,7 +289,7 @@ TEST_F(Results, AFailedRunLeavesNothingOfTheRunBefore) {
                             "emulated", "--fault", "alarm:x@0.6"});
   expect_refusal(failed, 1, "alarm");
   EXPECT_TRUE(exists("out/trace.partial.csv"));
-  const Json partial = Json::parse(content(folder / "out/summary.partial.json"));
+  const Json partial = parse_json(content(folder / "out/summary.partial.json"));
   EXPECT_TRUE(partial.contains("ended_early"));
   EXPECT_FALSE(partial.contains("planned_time_s"));
   EXPECT_FALSE(partial.contains("blocks"));

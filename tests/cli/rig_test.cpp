@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "tests/support/cli_fixture.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/sysfs_tree.hpp"
@@ -28,7 +28,7 @@ TEST_F(Rig, SwitchGivesTheSameTraceByteForByte) {
                            "--no-plots", "--quiet"});
     ASSERT_EQ(rig.status, 0) << rig.err;
     EXPECT_EQ(test::content(folder / "a/trace.csv"), test::content(folder / "b/trace.csv"));
-    const auto summary = nlohmann::json::parse(test::content(folder / "b/summary.json"));
+    const auto summary = parse_json(test::content(folder / "b/summary.json"));
     EXPECT_EQ(summary["hal"], "rig");
     EXPECT_EQ(summary["simulated"], true);
   }

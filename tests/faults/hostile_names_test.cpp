@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "tests/faults/whole_files.hpp"
 #include "tests/support/cli_fixture.hpp"
 
@@ -30,15 +30,13 @@ TEST_F(HostileName, IsANameAndNothingElseInEveryOutput) {
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_TRUE(exists("out/" + name + "/plots/contour.png"));
     EXPECT_TRUE(exists("out/" + name + "/video.mp4"));
-    const auto summary =
-        nlohmann::json::parse(test::content(folder / ("out/" + name + "/summary.json")));
+    const auto summary = parse_json(test::content(folder / ("out/" + name + "/summary.json")));
     if (text == printable) {
       EXPECT_EQ(summary["program"], name);
     }
     EXPECT_EQ(twin({"report", "out/" + name, "--quiet"}).status, 0);
-    const nlohmann::json job{{"program", "in/" + name}, {"hal", "ideal"}};
-    folder.put("jobs.jsonl",
-               job.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    const Json job{{"program", "in/" + name}, {"hal", "ideal"}};
+    folder.put("jobs.jsonl", to_line(job) + "\n");
     const auto batch = twin({"batch", "jobs.jsonl", "--store", "store", "--quiet"});
     EXPECT_EQ(batch.status, text == printable ? 0 : 1) << batch.err;  // bytes that are no UTF-8
     EXPECT_EQ(std::count(batch.err.begin(), batch.err.end(), '\n'), text == printable ? 0 : 1);

@@ -1,6 +1,7 @@
-#include <nlohmann/json.hpp>
 
 #include "tests/faults/rig_processes.hpp"
+
+#include "core/json.hpp"
 
 // Controller and plant as two programs in real time, to the end of the program.
 namespace twin::test {
@@ -14,7 +15,7 @@ TEST(WallClockRun, LastsAsLongAsPlannedAndReportsItsTiming) {
   const auto result = rig.controller->wait();
   const double took = monotonic() - begin;
   ASSERT_EQ(result.status, 0) << result.err << rig.log();
-  const auto summary = nlohmann::json::parse(content(rig.results() / "summary.json"));
+  const auto summary = parse_json(content(rig.results() / "summary.json"));
   EXPECT_EQ(summary["hal"], "rig");
   EXPECT_EQ(summary["simulated"], true);
   const double planned = summary["planned_time_s"];

@@ -3,26 +3,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
+#include "core/json.hpp"
 
 namespace twin::operator_station {
 namespace commands_test {
 
-using nlohmann::json;
 using ::testing::HasSubstr;
 
 TEST(Commands, SetTheOverrideAndTheHoldAndAnswerWithTheStatus) {
   runtime::OperatorPanel panel;
-  const json halved = json::parse(answer("override 50", panel));
+  const Json halved = parse_json(answer("override 50", panel));
   EXPECT_EQ(panel.wish().percent, 50.0);
   EXPECT_EQ(halved.at("override_percent"), 50.0);
   EXPECT_EQ(halved.at("state"), "waiting");
   answer("  hold\r", panel);
   EXPECT_TRUE(panel.wish().holds());
-  EXPECT_EQ(json::parse(answer("resume", panel)).at("hold"), false);
+  EXPECT_EQ(parse_json(answer("resume", panel)).at("hold"), false);
   EXPECT_FALSE(panel.wish().holds());
   panel.show({runtime::MotionState::kMoving, 1.5, 50.0, 12.5, 42});
-  const json status = json::parse(answer("status", panel));
+  const Json status = parse_json(answer("status", panel));
   EXPECT_EQ(status.at("state"), "moving");
   EXPECT_EQ(status.at("t_s"), 1.5);
   EXPECT_EQ(status.at("planned_for_percent"), 50.0);
@@ -34,11 +33,11 @@ TEST(Commands, WhatIsNotUnderstoodChangesNothingAndSaysWhatIs) {
   runtime::OperatorPanel panel;
   for (const char* line : {"override", "override x", "override 201", "override -1", "override nan",
                            "override 50 60", "override inf", "override 0x10"}) {
-    const json bad = json::parse(answer(line, panel));
+    const Json bad = parse_json(answer(line, panel));
     EXPECT_THAT(bad.at("error"), HasSubstr("within 0 and 200")) << line;
   }
   for (const char* line : {"", "stop", "hold 5", "HOLD", "status now", "\x01\xff"}) {
-    const json bad = json::parse(answer(line, panel));
+    const Json bad = parse_json(answer(line, panel));
     EXPECT_THAT(bad.at("error"), HasSubstr("override PERCENT, hold, resume, status")) << line;
   }
   EXPECT_EQ(panel.wish().percent, 100.0);
@@ -49,7 +48,7 @@ TEST(Commands, ResumeDoesNotEndAnOverrideOfNothing) {
   runtime::OperatorPanel panel;
   answer("override 0", panel);
   EXPECT_TRUE(panel.wish().holds());
-  EXPECT_TRUE(json::parse(answer("resume", panel)).contains("error"));
+  EXPECT_TRUE(parse_json(answer("resume", panel)).contains("error"));
   EXPECT_TRUE(panel.wish().holds());
 }
 

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include "core/json.hpp"
 
 namespace twin::results {
 namespace quantities_test {
@@ -46,11 +47,11 @@ TEST(Quantities, KeyEndsWithTheUnit) {
 }
 
 TEST(Quantities, SummaryFileHasEachAtItsPlace) {
-  const auto json = nlohmann::json::parse(to_json(whole()));
+  const auto json = parse_json(to_json(whole()));
   for (const Quantity& q : quantities()) {
     ASSERT_TRUE(q.get(whole())) << q.key;
     if (!q.pointer.empty()) {
-      const auto& value = json.at(nlohmann::json::json_pointer(std::string(q.pointer)));
+      const auto& value = json.at(Json::json_pointer(std::string(q.pointer)));
       EXPECT_EQ(value.is_number_integer(), q.kind == QuantityKind::kCount) << q.key;
     }
   }

@@ -1,7 +1,6 @@
 #include "pictures/page/page.hpp"
 
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/json.hpp"
@@ -52,7 +51,7 @@ Expected<Json> add_run(const PageRun& run) {
   }
   json["rows_of_trace"] = run.rows.rows_of_trace;
   json["thinned"] = run.rows.is_thinned;
-  Json summary = Json::parse(run.summary, nullptr, false);
+  Json summary = parse_json(run.summary);
   json["summary"] = summary.is_object() ? std::move(summary) : Json::object();
   json["columns"] = Json::array();
   for (const PageColumn& column : run.rows.columns) {

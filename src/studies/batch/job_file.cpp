@@ -44,7 +44,7 @@ class JobReader {
   }
   tl::unexpected<Error> wrong(const std::string& key, const Json& value,
                               std::string_view expected) const {
-    return wrong(fmt::format("has {} = {}; expected {}", key, value.dump(), expected));
+    return wrong(fmt::format("has {} = {}; expected {}", key, twin::to_line(value), expected));
   }
 
   Expected<void> take(const std::string& key, const Json& value, Job& job) {
@@ -99,8 +99,8 @@ class JobReader {
       if (setting.is_object() || setting.is_null()) {
         return wrong("set " + key, setting, "a number, a text or a list of numbers");
       }
-      job.settings.push_back(key + "=" +
-                             (setting.is_string() ? setting.get<std::string>() : setting.dump()));
+      job.settings.push_back(
+          key + "=" + (setting.is_string() ? setting.get<std::string>() : twin::to_line(setting)));
     }
     return {};
   }
@@ -143,12 +143,10 @@ class JobReader {
 }  // namespace
 
 Expected<Job> parse_job(std::string_view text, const std::filesystem::path& file, int line) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
+  const Json json = parse_json(text);
+  if (json.is_discarded()) {
     return tl::unexpected(Error{ErrorCode::kUsage, "is no JSON; expected one job, {...}",
-                                file.string(), line, static_cast<int>(error.byte)});
+                                file.string(), line, static_cast<int>(json_error(text))});
   }
   if (!json.is_object()) {
     return tl::unexpected(
@@ -193,7 +191,7 @@ std::string to_line(const Job& job) {
   for (const std::string& setting : job.settings) {
     const std::size_t equals = setting.find('=');
     const std::string value = setting.substr(equals + 1);
-    const Json parsed = Json::parse(value, nullptr, false);
+    const Json parsed = parse_json(value);
     json["set"][setting.substr(0, equals)] = parsed.is_discarded() ? Json(value) : parsed;
   }
   if (job.feedrate) {
@@ -208,7 +206,7 @@ std::string to_line(const Job& job) {
   } else if (job.trace != results::TraceFiles::kNone) {
     json["trace"] = results::kTraceFilesNames[static_cast<std::size_t>(job.trace)];
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return twin::to_line(json);
 }
 
 }  // namespace twin::studies::batch

@@ -70,21 +70,21 @@ std::string field(const std::string& text) {
 }  // namespace
 
 Merit merit_of(const StoredResult& result) {
-  const Json summary = Json::parse(result.summary, nullptr, false);
+  const Json summary = parse_json(result.summary);
   const double time = figure(summary, "machining_time_s");
   return {std::isnan(time) ? figure(summary, "planned_time_s") : time,
           figure(summary, "contour_error_um/max")};
 }
 
 StoredResult figures_of(const StoredResult& result) {
-  const Json summary = Json::parse(result.summary, nullptr, false);
+  const Json summary = parse_json(result.summary);
   Json figures = Json::object();
   for (const auto& [place, unit] : kFigures) {
     if (const double value = figure(summary, place); !std::isnan(value)) {
       figures[Json::json_pointer("/" + std::string(place))] = value;
     }
   }
-  return {figures.dump(), result.failure};
+  return {twin::to_line(figures), result.failure};
 }
 
 std::vector<Candidate> candidates_of(const std::vector<std::string>& keys,
@@ -155,7 +155,7 @@ std::string to_csv(const std::vector<std::string>& keys, const std::vector<Row>&
     for (const std::string& value : row.point.values) {
       text += field(value) + ",";
     }
-    const Json summary = Json::parse(row.result.summary, nullptr, false);
+    const Json summary = parse_json(row.result.summary);
     for (const auto& [place, unit] : kFigures) {
       const double value = figure(summary, place);
       text += (std::isnan(value) ? std::string() : fmt::format("{:.9g}", value)) + ",";
@@ -216,7 +216,7 @@ Expected<void> write_hdf5(const std::vector<std::string>& keys, const std::vecto
   }
   std::vector<Json> summaries;
   for (const Row& row : rows) {
-    summaries.push_back(Json::parse(row.result.summary, nullptr, false));
+    summaries.push_back(parse_json(row.result.summary));
   }
   for (const auto& [place, unit] : kFigures) {
     results::Hdf5TableColumn column{.column = {.name = column_of(place), .unit = unit}};

@@ -70,7 +70,7 @@ bool is_whole(const fs::path& folder, const Json& job) {
 
 /// Whether the subprograms' files that a result names are still those that the program calls.
 bool calls_the_same(const gcode::ProgramText& program, const std::string& summary) {
-  const Json json = Json::parse(summary, nullptr, false);
+  const Json json = parse_json(summary);
   if (!json.is_object() || !json.contains("subprograms")) {
     return true;
   }
@@ -92,7 +92,7 @@ Expected<Store> Store::open(fs::path folder) {
   const fs::path mark = folder / kMark;
   std::error_code code;
   if (const auto text = read_whole_file(mark)) {
-    const Json json = Json::parse(*text, nullptr, false);
+    const Json json = parse_json(*text);
     if (number_in(json, "layout") != kLayout) {
       return tl::unexpected(
           Error{ErrorCode::kFile,
@@ -132,7 +132,7 @@ std::optional<StoredResult> Store::find(const PreparedJob& job) const {
   if (!text) {
     return std::nullopt;
   }
-  const Json described = Json::parse(*text, nullptr, false);
+  const Json described = parse_json(*text);
   const auto summary = read_whole_file(folder / "summary.json");
   const auto failure = read_whole_file(folder / "failure.json");
   if (!is_whole(folder, described) || summary.has_value() == failure.has_value() ||
@@ -143,7 +143,7 @@ std::optional<StoredResult> Store::find(const PreparedJob& job) const {
   }
   StoredResult result{summary.value_or(std::string()), {}};
   if (failure) {
-    const Json json = Json::parse(*failure, nullptr, false);
+    const Json json = parse_json(*failure);
     const std::string* const failed = text_in(json, "error");
     result.failure = failed != nullptr ? *failed : "unknown";
   }
@@ -165,7 +165,7 @@ Expected<void> Store::commit(const PreparedJob& job, const fs::path& work,
       work / (has_failed ? "failure.json" : "summary.json"),
       has_failed ? to_text(Json{{"error", result.failure}}) : result.summary, Durability::kCached));
   Json described;
-  described["job"] = Json::parse(job.canonical);
+  described["job"] = parse_json(job.canonical);
   std::error_code code;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(work, code)) {

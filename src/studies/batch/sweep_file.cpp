@@ -213,7 +213,7 @@ class SweepReader {
     const std::filesystem::path file = file_.parent_path() / *name;
     TWIN_TRY(const std::string text, read_whole_file(file));
     const std::size_t before = drawn.size();
-    collect_identified(Json::parse(text, nullptr, false), drawn);
+    collect_identified(parse_json(text), drawn);
     return drawn.size() > before
                ? Expected<void>{}
                : wrong(node,

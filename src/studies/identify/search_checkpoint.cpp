@@ -79,7 +79,7 @@ Expected<std::optional<Checkpoint>> read_checkpoint(const std::filesystem::path&
   std::ifstream stream(file);
   std::ostringstream text;
   text << stream.rdbuf();
-  const Json json = Json::parse(text.str(), nullptr, false);
+  const Json json = parse_json(text.str());
   if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
     return about_checkpoint(file, "is not the checkpoint of a search; remove it to begin anew");
   }

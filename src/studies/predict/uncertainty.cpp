@@ -47,7 +47,7 @@ Expected<std::map<std::string, double>> measured_deviations(const config::Machin
     return found;
   }
   TWIN_TRY(const std::string text, read_whole_file(file));
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = parse_json(text);
   const auto refuse = [&file](const std::string& why) {
     return tl::unexpected(Error{ErrorCode::kFile, why, file.string(), 0, 0});
   };

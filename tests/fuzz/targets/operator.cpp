@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/json.hpp"
 #include "operator/commands.hpp"
 #include "operator/control_socket.hpp"
 #include "runtime/override_schedule.hpp"
@@ -85,7 +85,7 @@ class Station {
   }
   static void check(std::string_view heard) {
     for (std::size_t end; (end = heard.find('\n')) != std::string_view::npos;) {
-      promise(nlohmann::json::accept(heard.substr(0, end)), "an answer that is no JSON");
+      promise(!parse_json(heard.substr(0, end)).is_discarded(), "an answer that is no JSON");
       heard.remove_prefix(end + 1);
     }
   }

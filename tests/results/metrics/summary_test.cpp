@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "core/json.hpp"
 
 namespace twin::results {
 namespace summary_test {
 
 using ::testing::HasSubstr;
-using Json = nlohmann::ordered_json;
 
 Summary sample_summary() {
   Summary s;
@@ -48,14 +48,14 @@ std::vector<std::string> keys(const Json& json) {
 TEST(SummaryJson, FilesOfSubprogramsHaveTheirChecksums) {
   Summary summary = sample_summary();
   summary.subprograms = {{"slot.ngc", "00ff"}, {"ring.ngc", "1234"}};
-  const Json json = Json::parse(to_json(summary));
+  const Json json = parse_json(to_json(summary));
   ASSERT_EQ(json["subprograms"].size(), 2U);
   EXPECT_EQ(json["subprograms"][1]["file"], "ring.ngc");
   EXPECT_EQ(json["subprograms"][1]["sha256"], "1234");
 }
 
 TEST(SummaryJson, KeysAreTheInterfaceInItsOrder) {
-  const Json json = Json::parse(to_json(sample_summary()));
+  const Json json = parse_json(to_json(sample_summary()));
   EXPECT_THAT(
       keys(json),
       testing::ElementsAre("program", "machine", "hal", "planner", "interpolator", "simulated",
@@ -85,7 +85,7 @@ TEST(SummaryJson, SettingsAreAnObjectOfSections) {
                       {"planning", "planner", std::string("paper")},
                       {"planning", "look_ahead", std::int64_t{200}},
                       {"safety", "is_on", true}};
-  const Json json = Json::parse(to_json(summary))["settings"];
+  const Json json = parse_json(to_json(summary))["settings"];
   EXPECT_EQ(json.dump(),
             R"({"limits":{"jerk_mm_per_s3":50000.0,"travel_max_mm":[300.0,300.0,100.0]},)"
             R"("planning":{"planner":"paper","look_ahead":200},"safety":{"is_on":true}})");
@@ -96,9 +96,9 @@ TEST(SummaryJson, SaysWhatTheRunWasMadeFrom) {
   summary.planner = "paper";
   summary.version = "1.2.3";
   summary.command = "twin run dolphin.nc";
-  EXPECT_FALSE(Json::parse(to_json(summary)).contains("notes"));
+  EXPECT_FALSE(parse_json(to_json(summary)).contains("notes"));
   summary.notes = {"another planner plans"};
-  const Json json = Json::parse(to_json(summary));
+  const Json json = parse_json(to_json(summary));
   EXPECT_EQ(json["planner"], "paper");
   EXPECT_EQ(json["version"], "1.2.3");
   EXPECT_EQ(json["command"], "twin run dolphin.nc");
@@ -111,14 +111,14 @@ TEST(SummaryJson, SaysWhatTheRunWasMadeFrom) {
 TEST(SummaryJson, TheBoundStandsBehindThePlannedTimeWithItsRatio) {
   Summary summary = sample_summary();
   summary.time_bound = 8.08;
-  const Json json = Json::parse(to_json(summary));
+  const Json json = parse_json(to_json(summary));
   EXPECT_EQ(json["time_bound_s"], 8.08);
   EXPECT_EQ(json["bound_ratio"], 1.25);
   EXPECT_THAT(to_table(summary, Limits{}), testing::HasSubstr("1.2500 of the bound of 8.080 s"));
 }
 
 TEST(SummaryJson, ValuesAreInTheUnitsOfTheirKeys) {
-  const Json json = Json::parse(to_json(sample_summary()));
+  const Json json = parse_json(to_json(sample_summary()));
   EXPECT_EQ(json["blocks"]["length_mm"]["mean"], 0.353);
   EXPECT_EQ(json["command_contour_error_um"]["max"], 3.1);
   EXPECT_EQ(json["tracking_error_um"]["y"]["max"], 300.0);
@@ -131,7 +131,7 @@ TEST(SummaryJson, ValuesAreInTheUnitsOfTheirKeys) {
 TEST(SummaryJson, PlanLeavesOutWhatOnlyAMachineHas) {
   Summary plan = sample_summary();
   plan.run.reset();
-  const Json json = Json::parse(to_json(plan));
+  const Json json = parse_json(to_json(plan));
   for (const char* key : {"machining_time_s", "contour_error_um", "table_contour_error_um",
                           "tracking_error_um", "cycle_time_us", "real_time_factor"}) {
     EXPECT_FALSE(json.contains(key)) << key;
@@ -143,7 +143,7 @@ TEST(SummaryJson, NotANumberIsNullAndTheTextStaysValid) {
   Summary s = sample_summary();
   s.path_length = std::numeric_limits<double>::quiet_NaN();
   s.program = "caf\xe9.nc";
-  const Json json = Json::parse(to_json(s));
+  const Json json = parse_json(to_json(s));
   EXPECT_TRUE(json["path_length_mm"].is_null());
 }
 
@@ -163,14 +163,14 @@ TEST(SummaryTable, IsShortAlignedAndHasUnits) {
 
 TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {
   Summary s = sample_summary();
-  EXPECT_FALSE(Json::parse(to_json(s)).contains("realtime"));
+  EXPECT_FALSE(parse_json(to_json(s)).contains("realtime"));
   RealTimeStats figures;
   figures.wake_up = {2e-5, 6e-5, 9e-5, 1e-4};
   figures.late_periods = 3;
   figures.worst_latency = 0.0123;
   figures.notes = {"memory is not locked"};
   s.run->realtime = figures;
-  const Json json = Json::parse(to_json(s))["realtime"];
+  const Json json = parse_json(to_json(s))["realtime"];
   EXPECT_EQ(json["wake_up_us"]["p99.9"], 90.0);
   EXPECT_EQ(json["late_periods"], 3);
   EXPECT_EQ(json["worst_latency_us"], 12300.0);
@@ -182,19 +182,19 @@ TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {
 
 TEST(Summary, FallbacksOfThePlannerAreSaidWhereThereAreAny) {
   Summary s = sample_summary();
-  EXPECT_FALSE(Json::parse(to_json(s)).contains("plan_fallbacks"));
+  EXPECT_FALSE(parse_json(to_json(s)).contains("plan_fallbacks"));
   EXPECT_EQ(to_table(s, Limits{}).find("plan fallbacks"), std::string::npos);
   s.plan_fallbacks = 3;
-  EXPECT_EQ(Json::parse(to_json(s))["plan_fallbacks"], 3);
+  EXPECT_EQ(parse_json(to_json(s))["plan_fallbacks"], 3);
   EXPECT_NE(to_table(s, Limits{}).find("plan fallbacks"), std::string::npos);
 }
 
 TEST(Summary, CertifiedFiguresAreThereWithTheirPlannerOnly) {
   Summary s = sample_summary();
-  EXPECT_FALSE(Json::parse(to_json(s)).contains("certified_deviation_um"));
+  EXPECT_FALSE(parse_json(to_json(s)).contains("certified_deviation_um"));
   EXPECT_EQ(to_table(s, Limits{}).find("certified"), std::string::npos);
   s.certified = {0.0097, 331};
-  const Json json = Json::parse(to_json(s));
+  const Json json = parse_json(to_json(s));
   EXPECT_DOUBLE_EQ(json["certified_deviation_um"], 9.7);
   EXPECT_EQ(json["segments"]["spans"], 331);
   EXPECT_NE(to_table(s, Limits{}).find("9.700 um"), std::string::npos);

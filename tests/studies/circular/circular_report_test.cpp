@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.hpp"
 #include "core/units.hpp"
 
 namespace twin::studies::circular {
@@ -12,7 +11,6 @@ namespace report_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Json = nlohmann::ordered_json;
 
 Report example() {
   Report report;
@@ -33,7 +31,7 @@ Report example() {
 }
 
 TEST(Report, JsonHasUnitsInItsKeysAndTableBeforeEncoder) {
-  const Json json = Json::parse(to_json(example()));
+  const Json json = parse_json(to_json(example()));
   EXPECT_EQ(json["table"]["circular_hysteresis_um"], 12.5);
   EXPECT_EQ(json["encoder"]["circular_hysteresis_um"], 30.0);
   EXPECT_EQ(json["table"]["circular_deviation_um"]["cw"], 20.0);
@@ -49,7 +47,7 @@ TEST(Report, JsonHasUnitsInItsKeysAndTableBeforeEncoder) {
 TEST(Report, JsonHasNullWhereThereIsNoPrediction) {
   Report report = example();
   report.predicted.reset();
-  EXPECT_TRUE(Json::parse(to_json(report))["predicted_radial_deviation_um"].is_null());
+  EXPECT_TRUE(parse_json(to_json(report))["predicted_radial_deviation_um"].is_null());
 }
 
 TEST(Report, TableSaysWhatWasMeasuredWhere) {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "config/find_file.hpp"
+#include "core/json.hpp"
 #include "hal/ideal/ideal_machine.hpp"
 #include "studies/compare/comparison_files.hpp"
 #include "tests/support/program_text.hpp"
@@ -100,7 +100,7 @@ TEST_F(ComparisonTest, TextsAgree) {
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line, "figure,unit,nurbs,bezier,linear,certified");
-  const auto json = nlohmann::json::parse(json_text(*result));
+  const auto json = parse_json(json_text(*result));
   std::size_t figures = 0;
   while (std::getline(csv, line)) {
     ++figures;

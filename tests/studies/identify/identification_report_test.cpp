@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "core/json.hpp"
 
 namespace twin::studies::identify {
 namespace identification_report_test {
@@ -56,7 +57,7 @@ TEST(IdentificationReport, TableFitsATerminalAndSaysWhyAValueIsNotIdentified) {
 }
 
 TEST(IdentificationReport, JsonHasNullForADeviationThatIsNotFinite) {
-  const auto json = nlohmann::json::parse(to_json(example(), "machine.toml"));
+  const auto json = parse_json(to_json(example(), "machine.toml"));
   const auto& parameters = json["axis"]["x"]["parameters"];
   EXPECT_TRUE(parameters[0]["sigma"].is_null());
   EXPECT_EQ(parameters[0]["identified"], false);

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "answers.hpp"
+#include "core/json.hpp"
 #include "studies/reproduce/reproduction_files.hpp"
 
 // Well-formed tables, page and files, whatever the figures.
@@ -48,7 +48,7 @@ TEST(Texts, CsvLeavesTheMeanEmptyWithoutRepeats) {
 }
 
 TEST(Texts, JsonHoldsCountsAndFigures) {
-  const auto json = nlohmann::json::parse(json_text(test::scaled(1.15, 1.0)));
+  const auto json = parse_json(json_text(test::scaled(1.15, 1.0)));
   EXPECT_EQ(json["counts"]["as_published"]["single"]["within_20_percent"], 56);
   EXPECT_EQ(json["counts"]["as_published"]["single"]["within_10_percent"], 0);
   EXPECT_EQ(json["counts"]["defaults"]["mean"]["within_10_percent"], 56);
