@@ -36,11 +36,7 @@ TEST_F(HostileName, IsANameAndNothingElseInEveryOutput) {
     }
     EXPECT_EQ(twin({"report", "out/" + name, "--quiet"}).status, 0);
     const Json job{{"program", "in/" + name}, {"hal", "ideal"}};
-<<<<<<< HEAD
-    folder.put("jobs.jsonl", job.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-=======
     folder.put("jobs.jsonl", to_line(job) + "\n");
->>>>>>> 4c6a7555a962dc4a2bdb54cd739e4726de965ecc
     const auto batch = twin({"batch", "jobs.jsonl", "--store", "store", "--quiet"});
     EXPECT_EQ(batch.status, text == printable ? 0 : 1) << batch.err;  // bytes that are no UTF-8
     EXPECT_EQ(std::count(batch.err.begin(), batch.err.end(), '\n'), text == printable ? 0 : 1);
