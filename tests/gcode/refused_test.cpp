@@ -102,6 +102,9 @@ TEST(Refused, CountsThatAreNotWhole) {
   EXPECT_EQ(error_of("T-1"), "line 1:1: T-1: expected a whole number, zero or more");
   EXPECT_EQ(error_of("S-1"), "line 1:1: S-1: expected zero or more");
   EXPECT_EQ(error_of("G64 P-0.1"), "line 1:5: P-0.1: expected zero or more");
+  EXPECT_EQ(error_of("G64 P0.0000001"),
+            "line 1:5: P1e-07: a path tolerance finer than coordinates can tell: expected 0, or at "
+            "least 1e-06");
 }
 
 TEST(Refused, ArcWordsWithoutAnArc) {

@@ -9,6 +9,9 @@
 namespace twin::feedrate {
 namespace {
 
+/// Newton steps before the search goes on without slopes. Rounding of the distance may hide the root.
+constexpr int kJoinSteps = 30;
+
 /// Newton steps for a first guess of the feedrate, which cost next to nothing.
 constexpr int kGuesses = 6;
 
@@ -39,9 +42,10 @@ double highest_with_room(const Function& missing, double v_least, double at_leas
     const double x_high = std::sqrt(high - v_least);
     const double first = guess(2.0 * v_least, -at_least, x_high, at_high);
     const NewtonRoot root =
-        bracketed_newton(at, 0.0, x_high, first, {.value = kHalf, .iterations = 100});
-    const double x = root.is_met ? root.x : root.low;
-    return v_least + x * x;
+        bracketed_newton(at, 0.0, x_high, first, {.value = kHalf, .iterations = kJoinSteps});
+    if (root.is_met) {
+      return v_least + root.x * root.x;
+    }
   }
   return root_from_below([&](double v) { return missing(v).value; }, v_least, at_least, high,
                          at_high, {0.1 * kDistanceRounding, 1e-14, 100, 3});

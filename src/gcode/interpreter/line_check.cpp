@@ -14,6 +14,9 @@
 namespace twin::gcode {
 namespace {
 
+/// Least path tolerance, in the program's unit: places of the path are known to a thousandth of it.
+constexpr double kFinestTolerance = 1e-6;
+
 constexpr std::string_view kAxisWords = "XYZ";
 constexpr std::string_view kCentre = "IJK";
 constexpr std::string_view kOfArcs = "IJKR";
@@ -105,6 +108,13 @@ Expected<void> check_p_and_dwell(const LineWords& words) {
   if (words.has('P') && (is_dwell || is_continuous) && words.value('P') < 0.0) {
     return fail_at(words.column('P'),
                    fmt::format("P{:.10g}: expected zero or more", words.value('P')));
+  }
+  if (words.has('P') && is_continuous && words.value('P') > 0.0 &&
+      words.value('P') < kFinestTolerance) {
+    return fail_at(words.column('P'),
+                   fmt::format("P{:.10g}: a path tolerance finer than coordinates can tell: "
+                               "expected 0, or at least {:.10g}",
+                               words.value('P'), kFinestTolerance));
   }
   if (is_dwell && !words.has('P')) {
     return fail_at(words.column(GGroup::kDwell), "G04 has no time: expected P, in seconds");
