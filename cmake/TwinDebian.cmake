@@ -1,5 +1,5 @@
 # Debian packages, by `cpack` in the build folder: twin (program, shared library, machine files, programs), libtwin-dev
-# (headers, CMake package, pkg-config), python3-twin.
+# (headers, CMake package, pkg-config), python3-twin; and twin-linuxcnc (components of LinuxCNC's HAL) where they are built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME twin)
 set(CPACK_PACKAGE_VENDOR "twin")
@@ -15,7 +15,11 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/lib")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_COMPONENTS_ALL program devel python)
+set(components program devel python)
+if(TARGET twin_linuxcnc_modules)
+  list(APPEND components linuxcnc)
+endif()
+set(CPACK_COMPONENTS_ALL ${components})
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME twin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
@@ -44,6 +48,13 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "twin (= ${PROJECT_VERSION}-1), python3 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-distributed")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "digital twin of a servo XY table: Python package
  Plans, runs and identifies from Python; traces are NumPy arrays.")
+
+set(CPACK_DEBIAN_LINUXCNC_PACKAGE_NAME twin-linuxcnc)
+set(CPACK_DEBIAN_LINUXCNC_PACKAGE_SECTION misc)
+set(CPACK_DEBIAN_LINUXCNC_PACKAGE_DEPENDS "twin (= ${PROJECT_VERSION}-1), linuxcnc-uspace")
+set(CPACK_DEBIAN_LINUXCNC_DESCRIPTION "digital twin of a servo XY table: components of LinuxCNC's HAL
+ With them LinuxCNC drives the simulated table, and twin drives what LinuxCNC's
+ HAL drives. They are under the GNU General Public License, version 2 or later.")
 
 # What every Debian package has: licence and changes.
 string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -80,7 +91,8 @@ License: MIT
 set(program_package twin)
 set(devel_package libtwin-dev)
 set(python_package python3-twin)
-foreach(component IN ITEMS program devel python)
+set(linuxcnc_package twin-linuxcnc)
+foreach(component IN LISTS components)
   install(FILES "${package_docs}/copyright" DESTINATION share/doc/${${component}_package} COMPONENT ${component})
   install(FILES "${package_docs}/changelog.gz" RENAME changelog.Debian.gz
     DESTINATION share/doc/${${component}_package} COMPONENT ${component})
@@ -104,6 +116,7 @@ include(CPack)
 cpack_add_component_group(program)
 cpack_add_component_group(devel)
 cpack_add_component_group(python)
-foreach(component IN ITEMS program devel python)
+cpack_add_component_group(linuxcnc)
+foreach(component IN LISTS components)
   cpack_add_component(${component} GROUP ${component})
 endforeach()

@@ -124,7 +124,7 @@ function(twin_library name)
 endfunction()
 
 # twin_test(gcode SOURCES a_test.cpp DEPS twin_gcode [SHARDS n] [LABELS slow] [SERIAL] [PROGRAM] [OPTIMISED] [UNITY_BATCH n])
-# makes program gcode_test. ctest has an entry for each of its n shards, which gtest deals the tests to. SERIAL ones,
+# makes program gcode_test, which target slow_tests builds if it is labelled slow, and else target all. ctest has an entry for each of its n shards, which gtest deals the tests to. SERIAL ones,
 # on the wall clock, run with nothing beside; those of PROGRAM start the program `twin`;
 # most compute next to nothing themselves and are compiled without optimisation, OPTIMISED ones with it.
 function(twin_test name)
@@ -149,6 +149,10 @@ function(twin_test name)
   endif()
   if(NOT ARG_SHARDS)
     set(ARG_SHARDS 1)
+  endif()
+  if("slow" IN_LIST ARG_LABELS)
+    set_target_properties(${name}_test PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(slow_tests ${name}_test)
   endif()
   foreach(shard RANGE 1 ${ARG_SHARDS})
     set(test ${name})

@@ -122,13 +122,14 @@ set_up_browser() {
   stage_done
 }
 
-# build <program|tests|asan|tsan|fuzz> <ninja target>
+# build <program|tests|asan|tsan|fuzz> <ninja target>...
 #
 # One tree and one set of flags for the program and its tests; the programs of libFuzzer are clang's, with sanitizers, in
 # a tree of their own ($TWIN_BUILD of tests/fuzz/run), and so are tests with sanitizers. One at a time. When nothing has changed it costs one
 # `ninja -n`.
 build() {
-  local use=$1 target=$2 configured= options packages=$1
+  local use=$1 configured= options packages=$1
+  shift
   case $use in
     program) options=(-DTWIN_BUILD_TESTS=OFF) ;;
     tests) options=(-DTWIN_BUILD_TESTS=ON) ;;
@@ -164,9 +165,9 @@ build() {
     stage "configuring"
     logged cmake -S "$TWIN_ROOT" -B "$TWIN_BUILD" -G Ninja "${options[@]}"
   fi
-  if [[ $(ninja -C "$TWIN_BUILD" -n "$target" 2>&1 | tail -n 1) != 'ninja: no work to do.' ]]; then
+  if [[ $(ninja -C "$TWIN_BUILD" -n "$@" 2>&1 | tail -n 1) != 'ninja: no work to do.' ]]; then
     stage "building"
-    logged ninja -C "$TWIN_BUILD" -j "$(nproc)" "$target"
+    logged ninja -C "$TWIN_BUILD" -j "$(nproc)" "$@"
   fi
   exec 9>&-
 }

@@ -11,6 +11,7 @@
 
 #include "cli/terminal.hpp"
 #include "core/error.hpp"
+#include "pictures/figure/paper.hpp"
 #include "results/trace/trace_files.hpp"
 
 /// What a command line says, as plain values: a struct for each command, in base units.
@@ -57,6 +58,7 @@ struct HalArguments {
 struct ResultArguments {
   std::filesystem::path folder;                           ///< --out; empty: one below renders
   bool has_plots = true;                                  ///< without --no-plots
+  pictures::Paper paper = pictures::Paper::kNone;         ///< --pdf
   bool has_page = true;                                   ///< without --no-report
   results::TraceFiles trace = results::TraceFiles::kCsv;  ///< --trace, --no-trace
   bool has_json = false;  ///< --json: the summary goes to stdout as it is in the file
@@ -123,6 +125,7 @@ struct RenderArguments {
   std::filesystem::path folder;  ///< of an earlier run
   MachineArguments machine;
   bool has_plots = true;
+  pictures::Paper paper = pictures::Paper::kNone;
   VideoArguments video;
   Verbosity verbosity = Verbosity::kNormal;
 };

@@ -77,10 +77,10 @@ rig::assemble::RigSetup setup_of(const RigArguments& arguments,
 /// The options of the rig are refused where they would be ignored.
 Expected<void> check_rig_is_meant(const HalArguments& arguments) {
   const RigArguments& rig = arguments.rig;
-  if (rig.which != "auto" || !rig.faults.empty() || !rig.log.empty()) {
-    return fail(
-        ErrorCode::kUsage,
-        "--rig, --fault and --rig-log are for --hal rig, and this is --hal " + arguments.name);
+  if (rig.which != "auto" || !rig.faults.empty() || !rig.log.empty() || !rig.name.empty()) {
+    return fail(ErrorCode::kUsage,
+                "--rig, --rig-name, --fault and --rig-log are for --hal rig, and this is --hal " +
+                    arguments.name);
   }
   return {};
 }

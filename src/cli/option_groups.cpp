@@ -233,6 +233,12 @@ void add_no_plots(CLI::App& command, bool& has_plots) {
       "--no-plots", [&has_plots] { has_plots = false; }, "Draw no figures");
 }
 
+void add_paper(CLI::App& command, pictures::Paper& paper) {
+  command.add_flag_callback(
+      "--pdf", [&paper] { paper = pictures::Paper::kToo; },
+      "Plots for a paper as well: PDF, one column wide");
+}
+
 void add_results(CLI::App& command, ResultArguments& results, const std::string& folder) {
   command.add_option("--out", results.folder, "Folder of the results [renders/" + folder + "]")
       ->type_name("DIR");
@@ -256,6 +262,7 @@ void add_trace(CLI::App& command, ResultArguments& results, bool has_none) {
 
 void add_run_results(CLI::App& command, ResultArguments& results) {
   add_results(command, results);
+  add_paper(command, results.paper);
   command.add_flag_callback(
       "--no-report", [&results] { results.has_page = false; }, "Write no report.html");
   command

@@ -47,6 +47,9 @@ CLI::Option* add_tolerance(CLI::App& command, const std::string& name, const std
 void add_overrides(CLI::App& command, std::string& overrides);
 void add_quiet(CLI::App& command, Verbosity& verbosity,
                const std::string& text = "Print errors only");
+/// --pdf
+void add_paper(CLI::App& command, pictures::Paper& paper);
+
 void add_no_plots(CLI::App& command, bool& has_plots);
 void add_results(CLI::App& command, ResultArguments& results,
                  const std::string& folder = "PROGRAM");

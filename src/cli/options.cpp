@@ -88,6 +88,7 @@ void add_options(CLI::App& command, RenderArguments& render) {
       ->type_name("DIR");
   add_machine_file(command, render.machine, "Machine file whose model the video shows");
   add_no_plots(command, render.has_plots);
+  add_paper(command, render.paper);
   add_quiet(command, render.verbosity);
   add_video(command, render.video);
 }
@@ -171,6 +172,7 @@ void add_options(CLI::App& command, CircleArguments& circle) {
   add_curves(command, circle.machine);
   add_hal(command, circle.hal);
   add_results(command, circle.results, "circle");
+  add_paper(command, circle.results.paper);
   add_trace(command, circle.results);
 }
 

@@ -143,7 +143,7 @@ Expected<void> report_run(const session::Session& session, const runtime::RunRes
   if (results.has_json) {
     print_out("{}", results::to_json(result.summary));
   } else if (results.verbosity == Verbosity::kNormal) {
-    print_out("{}", results::to_table(result.summary, session.machine().limits));
+    put_out(with_bold_headings(results::to_table(result.summary, session.machine().limits)));
   }
   if (!result.failure) {
     return {};
@@ -181,7 +181,7 @@ Expected<void> make_pictures(const session::Session& session, ResultArguments re
   if (results.has_plots && has_trace) {
     Progress progress("plots", results.verbosity);
     progress.show(0.0);
-    TWIN_CHECK(session.draw_figures());
+    TWIN_CHECK(session.draw_figures(results.paper));
   }
   if (video.is_wanted) {
     Progress progress("video", results.verbosity);
@@ -287,7 +287,7 @@ Expected<void> execute(const RenderArguments& arguments, const Environment& envi
     progress.show(0.0);
     TWIN_CHECK(session::draw_figures({arguments.folder, program_of(origin, environment.stop),
                                       origin.program, origin.kind, origin.trace.filename().string(),
-                                      origin.reading}));
+                                      origin.reading, arguments.paper}));
   }
   if (arguments.video.is_wanted) {
     Progress progress("video", arguments.verbosity);
@@ -320,7 +320,7 @@ Expected<void> execute(const ReportArguments& arguments, const Environment& envi
 // Help and version.
 
 Expected<void> execute(const TextArguments& arguments, const Environment&) {
-  print_out("{}", arguments.text);
+  put_out(with_bold_headings(arguments.text));
   return {};
 }
 

@@ -233,6 +233,7 @@ Expected<void> execute(const CircleArguments& arguments, const Environment& envi
   test.make_machine = machine_of(arguments.hal);
   test.command = environment.command_line;
   test.trace = arguments.results.trace;
+  test.paper = arguments.results.paper;
   test.radius = arguments.radius;
   test.feedrate = arguments.feedrate.value_or(test.feedrate);
   test.folder = session::result_folder(arguments.results.folder, "circle");

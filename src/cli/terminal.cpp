@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "core/atomic_file.hpp"
@@ -32,11 +33,20 @@ std::string visible(std::string_view text) {
   return shown;
 }
 
-void print_message(std::string_view text) {
-  const std::string line = visible(text);
+/// @param label  what stands before the text, in a style
+void print_message(std::string_view label, Style style, std::string_view text) {
+  const std::string line = fmt::format("{} {}", label, visible(text));
   const std::size_t columns = columns_of(STDERR_FILENO);
-  put_error((columns > 2 * kMessageIndent ? wrapped(line, kMessageIndent, 0, columns) : line) +
-            "\n");
+  const std::string shown =
+      columns > 2 * kMessageIndent ? wrapped(line, kMessageIndent, 0, columns) : line;
+  put_error(styled(STDERR_FILENO, style, label) + shown.substr(label.size()) + "\n");
+}
+
+bool shows_colours(int stream) {
+  const char* const refusal = std::getenv("NO_COLOR");
+  const char* const terminal = std::getenv("TERM");
+  return isatty(stream) == 1 && (refusal == nullptr || *refusal == '\0') && terminal != nullptr &&
+         std::string_view(terminal) != "dumb";
 }
 
 int output_failure = 0;  // errno of the first failure of stdout, or 0
@@ -48,6 +58,28 @@ void note_output(bool is_written) {
 }
 
 }  // namespace
+
+std::string styled(int stream, Style style, std::string_view text) {
+  if (!shows_colours(stream)) {
+    return std::string(text);
+  }
+  const int code = style == Style::kBold ? 1 : style == Style::kError ? 31 : 33;
+  return fmt::format("\033[{}m{}\033[0m", code, text);
+}
+
+std::string with_bold_headings(std::string_view text) {
+  std::string shown;
+  for (bool is_first = true; !text.empty(); is_first = false) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    const bool is_heading = is_first || (line.ends_with(':') && line.front() != ' ');
+    shown +=
+        is_heading && !line.empty() ? styled(STDOUT_FILENO, Style::kBold, line) : std::string(line);
+    shown += text.substr(end, 1);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return shown;
+}
 
 std::size_t columns_of(int stream) {
   if (isatty(stream) != 1) {
@@ -102,11 +134,11 @@ Expected<void> finish_output() {
                              : file_error("standard output", "write", output_failure);
 }
 
-void print_error(std::string_view text) { print_message(fmt::format("twin: {}", text)); }
+void print_error(std::string_view text) { print_message("twin:", Style::kError, text); }
 
 void print_error(const Error& error) { print_error(to_string(error)); }
 
-void print_note(std::string_view text) { print_message(fmt::format("twin: note: {}", text)); }
+void print_note(std::string_view text) { print_message("twin: note:", Style::kNote, text); }
 
 Progress::Progress(std::string what, Verbosity verbosity)
     : what_(std::move(what)),

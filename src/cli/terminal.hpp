@@ -18,6 +18,17 @@ enum class Verbosity {
   kQuiet,  ///< --quiet
 };
 
+/// How words stand out on a terminal.
+enum class Style { kBold, kError, kNote };
+
+/// A text in a style where the stream is a terminal that shows colours; elsewhere, and where the
+/// environment has NO_COLOR (no-color.org) or TERM=dumb, the text itself.
+std::string styled(int stream, Style style, std::string_view text);
+
+/// A table or a help with its headings in bold on stdout's terminal: the first line, and lines that
+/// begin at the margin and end with a colon.
+std::string with_bold_headings(std::string_view text);
+
 /// Columns of the terminal at a stream, as STDERR_FILENO; 0 where there is none.
 std::size_t columns_of(int stream);
 

@@ -80,7 +80,10 @@ Expected<fs::path> find_file(std::string_view kind, const std::string& name,
     }
     std::vector<fs::path> all(folders.begin(), folders.end());
     all.emplace_back(".");
-    message += did_you_mean(name, names_in(all, extension));
+    // A name may be given without its ending.
+    const bool is_whole = name.ends_with(extension);
+    message +=
+        did_you_mean(is_whole ? name : name + std::string(extension), names_in(all, extension));
   }
   return tl::unexpected<Error>(Error{ErrorCode::kFile, message, name, 0, 0});
 }

@@ -85,6 +85,7 @@ Expected<void> draw_figures(const FigureRequest& request) {
   if (request.program) {
     input.programmed = programmed_outline(*request.program, Rapids::kDrawn, request.reading).points;
   }
+  input.paper = request.paper;
   input.plan_only = request.kind == TraceKind::kPlan;
   TWIN_CHECK(pictures::write_figures(input));
   return {};

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "gcode/program_text.hpp"
 #include "gcode/reader_options.hpp"
+#include "pictures/figure/paper.hpp"
 
 /// Figures and video, made from the trace that a run has left in a folder.
 namespace twin::session {
@@ -43,6 +44,7 @@ struct FigureRequest {
   TraceKind kind = TraceKind::kRun;
   std::string trace = "trace.csv";  ///< name of the trace
   gcode::ReaderOptions reading{};   ///< how the program is read
+  pictures::Paper paper = pictures::Paper::kNone;
 };
 
 /// Draws the figures of a trace.

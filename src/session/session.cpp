@@ -90,10 +90,14 @@ Expected<runtime::RunResult> Session::run(const Attendance& attendance) {
   return result;
 }
 
-Expected<void> Session::draw_figures() const {
-  return session::draw_figures({request_.folder, request_.program, title(),
+Expected<void> Session::draw_figures(pictures::Paper paper) const {
+  return session::draw_figures({request_.folder,
+                                request_.program,
+                                title(),
                                 hal_ == nullptr ? TraceKind::kPlan : TraceKind::kRun,
-                                trace_file().filename().string()});
+                                trace_file().filename().string(),
+                                {},
+                                paper});
 }
 
 Expected<void> Session::write_report() const {

@@ -109,7 +109,7 @@ class Session {
   Expected<runtime::RunResult> run(const Attendance& attendance = {});
 
   /// Draws the figures of the trace that run() has left, also of a run that ended early.
-  Expected<void> draw_figures() const;
+  Expected<void> draw_figures(pictures::Paper paper = pictures::Paper::kNone) const;
 
   /// Writes report.html from what run() has left, also of a run that ended early.
   Expected<void> write_report() const;

@@ -282,9 +282,13 @@ void EmulatedRig::notice(std::size_t axis) noexcept {
 }
 
 std::string EmulatedRig::report() const {
-  std::string text;
+  std::vector<Event> events;
   for (std::size_t i = events_.first(); i < events_.written(); ++i) {
-    text += to_string(events_[i]) + '\n';
+    events.push_back(events_[i]);
+  }
+  std::string text;
+  for (const Event& event : in_order(std::move(events))) {
+    text += to_string(event) + '\n';
   }
   const boards::Pci1716Registers& card = boards_->pci1716;
   const Truth end = truth();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/wall_clock.hpp"
 #include "hal/machine.hpp"
 #include "hal/rig/emulator/fault.hpp"
@@ -58,6 +60,11 @@ std::string what(const Event& event) {
 std::string to_string(const Event& event) {
   return fmt::format("plant {:.6f} s, clock {}.{:09} s: {}", event.plant_time,
                      event.monotonic_ns / kNsPerS, event.monotonic_ns % kNsPerS, what(event));
+}
+
+std::vector<Event> in_order(std::vector<Event> events) {
+  std::ranges::stable_sort(events, {}, &Event::monotonic_ns);
+  return events;
 }
 
 bool RestWatch::take(std::uint16_t code, double plant_time, Event& event) noexcept {

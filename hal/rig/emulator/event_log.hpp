@@ -25,7 +25,9 @@ enum class EventKind : std::uint8_t {
   kFellBehind,        ///< the wall clock ran away [-, ms left out]
 };
 
-inline constexpr double kRestTime = 10e-3;  ///< at 0x8000 for so long counts as rest [s]
+/// At 0x8000 for so long counts as rest [s]. A servo that holds a place corrects single counts every
+/// few ten milliseconds.
+inline constexpr double kRestTime = 0.1;
 
 /// One event with both clocks.
 struct Event {
@@ -35,6 +37,9 @@ struct Event {
   double plant_time = 0.0;        ///< simulated time [s]
   std::int64_t monotonic_ns = 0;  ///< CLOCK_MONOTONIC [ns]
 };
+
+/// Events in the order in which they happened: that of a rest is known only kRestTime later.
+std::vector<Event> in_order(std::vector<Event> events);
 
 /// "plant 1.234000 s, clock 5678.123456789 s: DAC 0 at 0x8000".
 std::string to_string(const Event& event);

@@ -5,13 +5,16 @@
 #include <sched.h>
 #include <sys/prctl.h>
 
+#include <algorithm>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stop_token>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "core/wall_clock.hpp"
 #include "hal/rig/boards/shared_registers.hpp"
@@ -21,7 +24,9 @@
 namespace twin::hal::rig::emulator {
 namespace {
 
-constexpr std::int64_t kMostBehind = 20'000'000;      // caught up with at most [ns]
+constexpr std::int64_t kMostBehind = 20'000'000;  // caught up with at most [ns]
+/// An event is told so long after it happened, so that one that is known late still has its place [ns].
+constexpr std::int64_t kHeldBack = static_cast<std::int64_t>(1.5 * kRestTime * 1e9);
 constexpr std::int64_t kControllerCheck = 1'000'000;  // between looks whether it lives [ns]
 
 std::int64_t nanoseconds(double seconds) noexcept {
@@ -41,9 +46,10 @@ class EventTeller {
   bool push(const Event& event) noexcept { return events_.push(event); }
 
  private:
-  void tell_all();
+  void tell_until(std::int64_t monotonic_ns);
 
   const std::function<void(std::string_view)>& tell_;
+  std::vector<Event> held_;  // until no earlier one can come any more
   boost::lockfree::spsc_queue<Event> events_{4096};
   std::jthread thread_;  // last: ends before what it uses
 };
@@ -54,17 +60,24 @@ EventTeller::EventTeller(const std::function<void(std::string_view)>& tell)
         const sched_param ordinary{};
         pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
         while (!stop.stop_requested()) {
-          tell_all();
+          tell_until(monotonic_ns() - kHeldBack);
           std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
-        tell_all();
+        tell_until(std::numeric_limits<std::int64_t>::max());
       }) {}
 
-void EventTeller::tell_all() {
+void EventTeller::tell_until(std::int64_t monotonic_ns) {
   Event event;
   while (events_.pop(event)) {
-    tell_(to_string(event));
+    held_.push_back(event);
   }
+  held_ = in_order(std::move(held_));
+  const auto later = std::ranges::find_if(
+      held_, [=](const Event& held) { return held.monotonic_ns > monotonic_ns; });
+  for (auto at = held_.begin(); at != later; ++at) {
+    tell_(to_string(*at));
+  }
+  held_.erase(held_.begin(), later);
 }
 
 /// The process of the emulator: plant, registers and clock.

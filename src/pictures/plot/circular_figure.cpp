@@ -98,6 +98,8 @@ Script circular_script(const CircularFigureInput& input, double division) {
   std::string text = fmt::format(
       "# Draws circular_test.png and circular_test.svg from the data beside it: gnuplot "
       "circular_test.gp\n"
+      "# circular_test.pdf, one column of a paper wide: gnuplot -e paper=1 circular_test.gp\n"
+      "if (!exists('paper')) {{ paper = 0 }}\n"
       "set datafile separator ','\n"
       "set encoding utf8\n"
       "division = {:g}  # um of radial error\n",
@@ -118,14 +120,16 @@ Script circular_script(const CircularFigureInput& input, double division) {
       quoted(input.title), quoted(input.subtitle), units::um_from_mm(division));
   text +=
       "has_cairo = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0\n"
-      "do for [kind in 'png svg'] {\n"
-      "  if (kind eq 'svg') {\n"
+      "do for [kind in paper ? 'pdf' : 'png svg'] {\n"
+      "  if (kind eq 'pdf') {\n"
+      "    set terminal pdfcairo size 8cm,9.2cm font 'DejaVu Sans,6' fontscale 1 linewidth 0.6\n"
+      "  } else { if (kind eq 'svg') {\n"
       "    set terminal svg size 600,690 font 'DejaVu Sans,19' background '#FFFFFF'\n"
       "  } else { if (has_cairo) {\n"
       "    set terminal pngcairo size 1200,1380 font 'DejaVu Sans,31' linewidth 2\n"
       "  } else {\n"
       "    set terminal png truecolor size 1200,1380 font 'DejaVu Sans,31' linewidth 2\n"
-      "  } }\n"
+      "  } } }\n"
       "  set output 'circular_test.'.kind\n";
   text += kDrawing;
   text += "  unset output\n}\n";
@@ -157,7 +161,7 @@ Expected<std::vector<fs::path>> write_circular_figure(const CircularFigureInput&
     TWIN_CHECK(write_path(folder, kSenses[i], input.path[i], input.radius));
   }
   const std::array scripts{circular_script(input, radial_division(largest_error(input)))};
-  return draw(folder, scripts);
+  return draw(folder, scripts, input.paper);
 }
 
 }  // namespace twin::pictures

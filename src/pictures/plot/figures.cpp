@@ -1,10 +1,14 @@
 #include "pictures/plot/figures.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
+#include "core/units.hpp"
 #include "pictures/plot/figure_data.hpp"
 #include "pictures/plot/gnuplot.hpp"
 #include "pictures/plot/scripts.hpp"
@@ -31,7 +35,33 @@ struct RunOrigin {
   double period = 0.0;        ///< [s]; 0 when nothing is known
   double acceleration = 0.0;  ///< its limit [mm/s^2]; 0 when nothing is known
   double jerk = 0.0;          ///< its limit [mm/s^3]; 0 when nothing is known
+  std::string settings;       ///< in one line; empty when nothing is known
 };
+
+/// "certified planner, at most 2450 mm/s² and 50000 mm/s³, within 10 µm, kp 298.6 and 111.2 /s".
+std::string settings_line(const Json& summary) {
+  const auto number = [&summary](const char* place) {
+    const auto value = summary.value(Json::json_pointer(place), Json());
+    return value.is_number() ? value.get<double>() : NAN;
+  };
+  const double acceleration = number("/settings/limits/acceleration_mm_per_s2");
+  const double jerk = number("/settings/limits/jerk_mm_per_s3");
+  const double chord = number("/settings/planning/chord_error_mm");
+  const auto planner = summary.value("planner", Json());
+  if (!planner.is_string() || std::isnan(acceleration + jerk + chord)) {
+    return {};
+  }
+  std::string line = fmt::format(
+      "{} planner, at most {:g} mm/s² and {:g}·10³ mm/s³, within {:g} µm",
+      planner.get<std::string>(), acceleration, jerk / 1000.0, units::um_from_mm(chord));
+  // A plan has no servo.
+  const double kp_x = number("/settings/servo.x/kp_per_s");
+  const double kp_y = number("/settings/servo.y/kp_per_s");
+  if (summary.contains("machining_time_s") && !std::isnan(kp_x + kp_y)) {
+    line += fmt::format(", kp {:.4g} and {:.4g} /s", kp_x, kp_y);
+  }
+  return line;
+}
 
 /// Reads it from a summary; a file that is missing or is none says nothing.
 RunOrigin read_run_origin(const fs::path& summary) {
@@ -58,6 +88,7 @@ RunOrigin read_run_origin(const fs::path& summary) {
   };
   origin.acceleration = limit("acceleration_mm_per_s2");
   origin.jerk = limit("jerk_mm_per_s3");
+  origin.settings = settings_line(json);
   return origin;
 }
 
@@ -85,14 +116,14 @@ Expected<std::vector<fs::path>> write_figures(const FigureInput& input) {
                                                                   : "summary.json"));
   data.acceleration_limit = origin.acceleration;
   data.jerk_limit = origin.jerk;
-  const std::string title = title_of(input.title, origin);
-  std::vector<Script> scripts = figure_scripts(title, data, input.plan_only);
+  const Heading heading{title_of(input.title, origin), origin.settings};
+  std::vector<Script> scripts = figure_scripts(heading, data, input.plan_only);
   if (fs::exists(folder / results::kTimingName)) {
-    scripts.push_back(timing_script(title, origin.period));
+    scripts.push_back(timing_script(heading, origin.period));
   } else {
     remove_timing(folder);
   }
-  return draw(folder, scripts);
+  return draw(folder, scripts, input.paper);
 }
 
 }  // namespace twin::pictures

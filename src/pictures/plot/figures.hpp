@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "pictures/figure/paper.hpp"
 
 namespace twin::pictures {
 
@@ -17,6 +18,7 @@ struct FigureInput {
   std::vector<Vec2> programmed = {};
   bool plan_only = false;  ///< the trace has no machine in it, so only the command is drawn
   std::string trace = "trace.csv";  ///< name of the trace
+  Paper paper = Paper::kNone;
 };
 
 /// Draws the figures of a run as PNG and SVG, in the manner of Figs. 12 to 19 of the paper.
@@ -30,7 +32,8 @@ struct FigureInput {
 ///   timing               how late periods began and how long they took; only for a run on the wall
 ///                        clock, which leaves plots/timing.csv
 ///
-/// Titles say "simulated" where summary.json beside the trace does.
+/// Titles say "simulated" where summary.json beside the trace does, and the line below them has the
+/// settings of the run that summary.json has. A PDF for a paper has neither.
 ///
 /// Beside each NAME.png and NAME.svg stand its data NAME.csv and its script NAME.gp; "gnuplot
 /// NAME.gp" draws it again. Long traces are thinned so that no peak is lost. With plan_only the

@@ -83,12 +83,21 @@ Expected<std::pair<Descriptor, Descriptor>> make_pipe() {
   return std::pair(Descriptor(ends[0]), Descriptor(ends[1]));
 }
 
-Expected<Child> start(const std::filesystem::path& directory, const std::string& script) {
+/// A script to be run, and whether for a paper.
+struct GnuplotRun {
+  std::string script;  ///< file name
+  bool is_for_paper = false;
+};
+
+Expected<Child> start(const std::filesystem::path& directory, const GnuplotRun& drawing) {
   TWIN_TRY(auto complaints, make_pipe());
   TWIN_TRY(auto refusal, make_pipe());
   std::string program = "gnuplot";
-  std::string argument = script;
-  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  std::string option = "-e";
+  std::string definition = drawing.is_for_paper ? "paper=1" : "paper=0";
+  std::string script = drawing.script;
+  const std::array<char*, 5> arguments{program.data(), option.data(), definition.data(),
+                                       script.data(), nullptr};
   const pid_t parent = ::getpid();
   Child child;
   child.pid = ::fork();
@@ -145,10 +154,10 @@ std::string telling_line(const std::string& text) {
 
 /// Runs "gnuplot SCRIPT" in a directory and waits for it.
 ///
-/// @param script  file name in that directory
+/// @param drawing  of a script in that directory
 /// @returns an Error when gnuplot is missing or fails, with the first line of its complaint
-Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::string& script) {
-  TWIN_TRY(auto child, start(directory, script));
+Expected<void> run_gnuplot(const std::filesystem::path& directory, const GnuplotRun& drawing) {
+  TWIN_TRY(auto child, start(directory, drawing));
   const std::string complaints = listen(child.complaints.get());
   int status = 0;
   while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
@@ -157,15 +166,15 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory, const std::st
     return {};
   }
   const std::string line = telling_line(complaints);
-  return tl::unexpected<Error>(Error{ErrorCode::kFile,
-                                     "gnuplot failed: " + (line.empty() ? "no message" : line),
-                                     (directory / script).lexically_normal().string(), 0, 0});
+  return tl::unexpected<Error>(
+      Error{ErrorCode::kFile, "gnuplot failed: " + (line.empty() ? "no message" : line),
+            (directory / drawing.script).lexically_normal().string(), 0, 0});
 }
 
 /// The same in a thread, which nothing may escape.
-Expected<void> run_guarded(const std::filesystem::path& directory, const std::string& script) {
+Expected<void> run_guarded(const std::filesystem::path& directory, const GnuplotRun& drawing) {
   try {
-    return run_gnuplot(directory, script);
+    return run_gnuplot(directory, drawing);
   } catch (const std::exception& error) {
     return fail(ErrorCode::kFile, std::string("gnuplot cannot be run: ") + error.what());
   }
@@ -173,7 +182,7 @@ Expected<void> run_guarded(const std::filesystem::path& directory, const std::st
 
 /// Runs several scripts, two at a time. @returns the first error, after all have ended
 Expected<void> run_gnuplot(const std::filesystem::path& directory,
-                           std::span<const std::string> scripts) {
+                           std::span<const GnuplotRun> scripts) {
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   Expected<void> result;
@@ -194,8 +203,10 @@ Expected<void> run_gnuplot(const std::filesystem::path& directory,
 
 /// Whether a picture ends as one of its kind does.
 bool has_its_end(const fs::path& picture) {
-  const std::string_view end =
-      picture.extension() == ".png" ? std::string_view("IEND\xAE\x42\x60\x82") : "</svg>";
+  const std::string_view end = picture.extension() == ".png"
+                                   ? std::string_view("IEND\xAE\x42\x60\x82")
+                               : picture.extension() == ".pdf" ? "%%EOF"
+                                                               : "</svg>";
   constexpr std::streamoff most = 64;
   std::ifstream in(picture, std::ios::binary | std::ios::ate);
   in.seekg(-std::min<std::streamoff>(most, in.tellg()), std::ios::end);
@@ -204,8 +215,8 @@ bool has_its_end(const fs::path& picture) {
 }
 
 /// Names of the pictures that a script makes.
-std::array<std::string, 2> pictures_of(const Script& script) {
-  return {script.name + ".png", script.name + ".svg"};
+std::vector<std::string> pictures_of(const Script& script) {
+  return {script.name + ".png", script.name + ".svg", script.name + ".pdf"};
 }
 
 /// A picture that gnuplot left out although it said nothing, or cut short, as on a full disk.
@@ -255,22 +266,30 @@ Expected<void> write_table(const std::filesystem::path& folder, const std::strin
   return file.commit();
 }
 
-Expected<std::vector<fs::path>> draw(const fs::path& folder, std::span<const Script> scripts) {
+Expected<std::vector<fs::path>> draw(const fs::path& folder, std::span<const Script> scripts,
+                                     Paper paper) {
   TWIN_TRY(const Workshop workshop, Workshop::open(folder));
   std::vector<std::string> names;
   std::vector<fs::path> pictures;
-  std::vector<std::string> commands;
+  std::vector<fs::path> old;
+  std::vector<GnuplotRun> drawings;
   for (const Script& script : scripts) {
     TWIN_CHECK(write_whole_file(folder / (script.name + ".gp"), script.text, Durability::kCached));
-    commands.push_back("../" + script.name + ".gp");
+    drawings.push_back({"../" + script.name + ".gp", false});
+    if (paper == Paper::kToo) {
+      drawings.push_back({"../" + script.name + ".gp", true});
+    }
     for (const std::string& name : pictures_of(script)) {
-      names.push_back(name);
-      pictures.push_back(folder / name);
+      old.push_back(folder / name);
+      if (paper == Paper::kToo || !name.ends_with(".pdf")) {
+        names.push_back(name);
+        pictures.push_back(folder / name);
+      }
     }
   }
-  remove_all(pictures);  // no older picture may pass for one of this run
+  remove_all(old);  // no older picture may pass for one of this run
   TWIN_CHECK(link_data(folder, workshop.folder()));
-  TWIN_CHECK(run_gnuplot(workshop.folder(), commands));
+  TWIN_CHECK(run_gnuplot(workshop.folder(), drawings));
   TWIN_CHECK(check_pictures(workshop.folder(), names));
   TWIN_CHECK(workshop.deliver(names));
   return pictures;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "pictures/figure/paper.hpp"
 #include "pictures/plot/scripts.hpp"
 #include "results/trace/decimator.hpp"
 
@@ -18,7 +19,7 @@ Expected<void> write_table(const std::filesystem::path& folder, const std::strin
                            std::span<const std::string_view> columns, const results::Table& table);
 
 /// Writes each script as NAME.gp into a folder and lets gnuplot run it there, two at a time; a
-/// script makes NAME.png and NAME.svg.
+/// script makes NAME.png and NAME.svg, for a paper NAME.pdf too.
 ///
 /// Gnuplot is started directly, without a shell, so that no name needs quoting, and is killed when
 /// this program ends. It draws in a folder of its own; pictures get their place when all of them are
@@ -27,6 +28,7 @@ Expected<void> write_table(const std::filesystem::path& folder, const std::strin
 /// @returns the pictures; after an error there are none, an older run's neither. When gnuplot is
 ///          missing or fails, the Error has the first line of its complaint
 Expected<std::vector<std::filesystem::path>> draw(const std::filesystem::path& folder,
-                                                  std::span<const Script> scripts);
+                                                  std::span<const Script> scripts,
+                                                  Paper paper = Paper::kNone);
 
 }  // namespace twin::pictures

@@ -19,6 +19,7 @@ constexpr std::string_view kGrey = "#B0B0B0";
 constexpr int kWidth = 1200;  // of the PNG [pixels]; the SVG is smaller by kSvgScale
 constexpr int kHeight = 900;
 constexpr double kSvgScale = 2.0 / 3.0;
+constexpr double kColumn = 8.6;  // width of the PDF, of one column of a paper [cm]
 
 /// Height of a picture [pixels] at which a path of this shape leaves no empty strip.
 /// @param axes  width of the plot [pixels]
@@ -29,14 +30,20 @@ int path_height(const Vec2& extent, double axes = 1000.0) {
   return static_cast<int>(std::clamp(wanted, least, static_cast<double>(kHeight)));
 }
 
-/// A place counted from the upper edge, as a part of the picture's height.
-double from_top(int pixels, int height) { return 1.0 - static_cast<double>(pixels) / height; }
+/// Pixels counted from the upper edge, as a part of the picture's height; letters of a paper's figure
+/// are larger beside the picture, and so is what stands between them.
+std::string from_top(int pixels, int height, int on_paper) {
+  return fmt::format("paper ? {:.4f} : {:.4f}", 1.0 - static_cast<double>(on_paper) / height,
+                     1.0 - static_cast<double>(pixels) / height);
+}
 
 /// A whole script: the same page for both formats, then what the figure adds.
 Script script(const std::string& name, const std::string& settings, const std::string& drawing,
               int height = kHeight) {
   std::string text = fmt::format(
       "# Draws {0}.png and {0}.svg from the data beside it: gnuplot {0}.gp\n"
+      "# {0}.pdf, one column of a paper wide: gnuplot -e paper=1 {0}.gp\n"
+      "if (!exists('paper')) {{ paper = 0 }}\n"
       "set datafile separator ','\n"
       "set encoding utf8\n"
       "set border 3 linecolor rgb '#404040'\n"
@@ -52,49 +59,62 @@ Script script(const std::string& name, const std::string& settings, const std::s
       "set style line 8 linecolor rgb '#202020' linewidth 1.8\n"
       "set style line 9 linecolor rgb '#D55E00' linewidth 0.8 dashtype 2\n"
       "set style line 5 linecolor rgb '{4}' linewidth 1 dashtype 3\n"
-      "set key at screen 0.5, screen {5:.4f} center center horizontal Left reverse samplen 2 width "
+      "set key at screen 0.5, screen ({5}) center center horizontal Left reverse samplen 2 width "
       "2\n"
-      "set tmargin at screen {6:.4f}\n",
-      name, kBlue, kVermilion, kGreen, kGrey, from_top(86, height), from_top(122, height));
+      "set tmargin at screen ({6})\n",
+      name, kBlue, kVermilion, kGreen, kGrey, from_top(98, height, 52), from_top(134, height, 104));
   text += settings;
   text += fmt::format(
       "has_cairo = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0\n"
-      "do for [kind in 'png svg'] {{\n"
-      "  if (kind eq 'svg') {{\n"
+      "do for [kind in paper ? 'pdf' : 'png svg'] {{\n"
+      "  if (kind eq 'pdf') {{\n"
+      "    set terminal pdfcairo size {5:.1f}cm,{6:.2f}cm font 'DejaVu Sans,5' fontscale 1 "
+      "pointscale 0.4 linewidth 0.6\n"
+      "  }} else {{ if (kind eq 'svg') {{\n"
       "    set terminal svg size {1},{2} font 'DejaVu Sans,15' background '#FFFFFF'\n"
       "  }} else {{ if (has_cairo) {{\n"
       "    set terminal pngcairo size {3},{4} font 'DejaVu Sans,21' linewidth 1.6\n"
       "  }} else {{\n"
       "    set terminal png truecolor size {3},{4} font 'DejaVu Sans,21' linewidth 2\n"
-      "  }} }}\n"
+      "  }} }} }}\n"
       "  set output '{0}.'.kind\n",
-      name, std::lround(kWidth * kSvgScale), std::lround(height * kSvgScale), kWidth, height);
+      name, std::lround(kWidth * kSvgScale), std::lround(height * kSvgScale), kWidth, height,
+      kColumn, kColumn * height / kWidth);
   text += drawing;
   text += "  unset output\n}\n";
   return {name, text};
 }
 
-std::string set_title(const std::string& title, int height = kHeight) {
-  return title.empty()
-             ? ""
-             : fmt::format("set label 1 {} at screen 0.5, screen {:.4f} center noenhanced\n",
-                           quoted(title), from_top(36, height));
+/// The title, and in smaller letters below it the settings of the run. A paper's figure has neither:
+/// its own caption says so.
+std::string set_title(const Heading& heading, int height = kHeight) {
+  std::string text;
+  const auto add = [&](int label, const std::string& line, int pixels, const char* look) {
+    if (!line.empty()) {
+      text += fmt::format(
+          "if (!paper) {{ set label {} {} at screen 0.5, screen {:.4f} center {}noenhanced }}\n",
+          label, quoted(line), 1.0 - static_cast<double>(pixels) / height, look);
+    }
+  };
+  add(1, heading.title, 28, "");
+  add(3, heading.settings, 60, "font ',13' textcolor rgb '#606060' ");
+  return text;
 }
 
 /// Two panels under one title, over the same time, which is labelled once.
-std::string two_panels(const std::string& title, const std::string& upper,
-                       const std::string& lower) {
+std::string two_panels(const std::string& upper, const std::string& lower) {
   return fmt::format(
-      "  set multiplot layout 2,1 margins 0.16, 0.97, 0.13, {} spacing 0, 0.06{}\n"
+      "  set multiplot layout 2,1 margins (paper ? 0.19 : 0.16), 0.97, (paper ? 0.17 : 0.13), "
+      "(paper ? 0.96 : 0.89) spacing 0, 0.06\n"
       "  set format x ''\n"
       "  unset xlabel\n"
       "  {}\n"
+      "  unset label\n"
       "  set format x '%h'\n"
       "  set xlabel 'time [s]'\n"
       "  {}\n"
       "  unset multiplot\n",
-      title.empty() ? "0.96" : "0.90",
-      title.empty() ? "" : " title " + quoted(title) + " noenhanced", upper, lower);
+      upper, lower);
 }
 
 constexpr std::string_view kPathAxes =
@@ -128,10 +148,10 @@ std::string pen_functions(const DataSummary& data) {
                          : "down(x) = x\n";
 }
 
-Script magnified_script(const std::string& title, const DataSummary& data) {
+Script magnified_script(const Heading& heading, const DataSummary& data) {
   const int height = path_height(data.extent);
   const double n = magnification(data.extent.maxCoeff(), data.largest_error_um);
-  std::string settings = set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
+  std::string settings = set_title(heading, height) + std::string(kPathAxes) + pen_functions(data);
   settings += fmt::format("magnification = {}\n", n);
   settings +=
       "moved(x, error) = x + magnification * error / 1000.0\n"
@@ -145,8 +165,8 @@ Script magnified_script(const std::string& title, const DataSummary& data) {
   return script("contour_magnified", settings, drawing, height);
 }
 
-Script feedrate_script(const std::string& title, const DataSummary& data) {
-  const std::string settings = set_title(title) +
+Script feedrate_script(const Heading& heading, const DataSummary& data) {
+  const std::string settings = set_title(heading) +
                                "set xlabel 'time [s]'\n"
                                "set ylabel 'feedrate [mm/s]'\n"
                                "set yrange [0:*]\n"
@@ -170,11 +190,10 @@ std::string limit_lines(double limit) {
              : std::string();
 }
 
-Script acceleration_script(const std::string& title, const DataSummary& data) {
-  const std::string settings = "unset key\n";
+Script acceleration_script(const Heading& heading, const DataSummary& data) {
+  const std::string settings = set_title(heading) + "unset key\nunset tmargin\n";
   return script("acceleration_jerk", settings,
-                two_panels(title,
-                           "set ylabel \"tangential\\nacceleration [mm/s²]\"\n"
+                two_panels("set ylabel \"tangential\\nacceleration [mm/s²]\"\n"
                            "  plot 'acceleration_jerk.csv' using 't_s':'acceleration_mm_per_s2' "
                            "with lines linestyle 1 linewidth 1" +
                                limit_lines(data.acceleration_limit),
@@ -184,8 +203,8 @@ Script acceleration_script(const std::string& title, const DataSummary& data) {
                                limit_lines(data.jerk_limit / 1000.0)));
 }
 
-Script contour_error_script(const std::string& title) {
-  const std::string settings = set_title(title) +
+Script contour_error_script(const Heading& heading) {
+  const std::string settings = set_title(heading) +
                                "set xlabel 'time [s]'\n"
                                "set ylabel 'contour error [µm]'\n"
                                "set yrange [0:*]\n"
@@ -197,11 +216,10 @@ Script contour_error_script(const std::string& title) {
                 "'RMS of the last 0.1 s'\n");
 }
 
-Script tracking_script(const std::string& title) {
-  const std::string settings = "unset key\n";
+Script tracking_script(const Heading& heading) {
+  const std::string settings = set_title(heading) + "unset key\nunset tmargin\n";
   return script("tracking_errors", settings,
-                two_panels(title,
-                           "set ylabel \"tracking error\\nof x [µm]\"\n"
+                two_panels("set ylabel \"tracking error\\nof x [µm]\"\n"
                            "  plot 'tracking_errors.csv' using 't_s':'x_tracking_error_um' with "
                            "lines linestyle 1 linewidth 1",
                            "set ylabel \"tracking error\\nof y [µm]\"\n"
@@ -236,11 +254,11 @@ std::string worst_key(const DataSummary& data) {
              : std::string();
 }
 
-Script contour_script(const std::string& title, const DataSummary& data, bool plan_only) {
+Script contour_script(const Heading& heading, const DataSummary& data, bool plan_only) {
   constexpr double kBesideColours = 845.0;  // width of the plot beside the colour box [pixels]
   const int height =
       plan_only ? path_height(data.extent) : path_height(data.extent, kBesideColours);
-  std::string settings = set_title(title, height) + std::string(kPathAxes) + pen_functions(data);
+  std::string settings = set_title(heading, height) + std::string(kPathAxes) + pen_functions(data);
   std::string drawing = "  plot " + background(data) +
                         "'contour.csv' using (down(column('x_cmd_mm'))):'y_cmd_mm' with lines "
                         "linestyle 1 " +
@@ -262,7 +280,7 @@ Script page(const std::string& name, const std::string& settings, const std::str
   return script(name, settings, drawing);
 }
 
-std::string title_line(const std::string& title) { return set_title(title); }
+std::string title_line(const std::string& title) { return set_title({title, {}}); }
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -292,20 +310,20 @@ double magnification(double extent, double largest_error_um) {
   return std::max(1.0, decade * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0));
 }
 
-std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
+std::vector<Script> figure_scripts(const Heading& heading, const DataSummary& data,
                                    bool plan_only) {
-  std::vector<Script> scripts{contour_script(title, data, plan_only), feedrate_script(title, data),
-                              acceleration_script(title, data)};
+  std::vector<Script> scripts{contour_script(heading, data, plan_only),
+                              feedrate_script(heading, data), acceleration_script(heading, data)};
   if (!plan_only) {
-    scripts.push_back(magnified_script(title, data));
-    scripts.push_back(contour_error_script(title));
-    scripts.push_back(tracking_script(title));
+    scripts.push_back(magnified_script(heading, data));
+    scripts.push_back(contour_error_script(heading));
+    scripts.push_back(tracking_script(heading));
   }
   return scripts;
 }
 
-Script timing_script(const std::string& title, double period) {
-  std::string settings = title_line(title) +
+Script timing_script(const Heading& heading, double period) {
+  std::string settings = set_title(heading) +
                          "set logscale xy\n"
                          "set xlabel 'time [µs]'\n"
                          "set ylabel 'periods'\n"

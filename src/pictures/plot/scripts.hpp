@@ -13,7 +13,15 @@ struct Script {
   std::string text;
 };
 
+/// What stands above a figure; any text.
+struct Heading {
+  std::string title;     ///< as in "dolphin.nc, simulated"
+  std::string settings;  ///< of the run, in one line; may be empty
+};
+
 /// A whole script: the page that all figures share, then what the figure adds.
+/// With the variable paper of gnuplot it makes NAME.pdf, one column of a paper wide, without a
+/// title.
 ///
 /// @param name      of the figure; it makes NAME.png and NAME.svg
 /// @param settings  lines before the terminals are set
@@ -35,15 +43,12 @@ std::string quoted(const std::string& text);
 double magnification(double extent, double largest_error_um);
 
 /// The scripts of all figures of a run or of a plan.
-///
-/// @param title      above every figure; any text
-std::vector<Script> figure_scripts(const std::string& title, const DataSummary& data,
-                                   bool plan_only);
+std::vector<Script> figure_scripts(const Heading& heading, const DataSummary& data, bool plan_only);
 
 /// The figure of a run on the wall clock, from timing.csv: how many periods over how late they
 /// began, how long their computation took, and when their outputs were written.
 ///
 /// @param period  marked by a line [s]; 0: none
-Script timing_script(const std::string& title, double period);
+Script timing_script(const Heading& heading, double period);
 
 }  // namespace twin::pictures

@@ -171,6 +171,7 @@ Expected<void> draw_circle_test(const CircleTest& test, const CircleRun& run) {
   input.title = fmt::format("Circular test, radius {:g} mm, {:g} mm/min", test.radius,
                             units::mm_per_min_from_mm_per_s(test.feedrate));
   input.subtitle = fmt::format("{} ({}), position of the table", test.machine.name, test.hal);
+  input.paper = test.paper;
   input.radius = test.radius;
   input.path = {run.turns[0].table, run.turns[1].table};
   TWIN_CHECK(pictures::write_circular_figure(input));

@@ -8,6 +8,7 @@
 
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
+#include "pictures/figure/paper.hpp"
 #include "results/trace/trace_files.hpp"
 #include "session/machine.hpp"
 #include "studies/circular/circle_program.hpp"
@@ -25,6 +26,7 @@ struct CircleTest {
   std::string command{};              ///< command line of the caller, for the summaries
   results::TraceFiles trace = results::TraceFiles::kCsv;  ///< as which files traces are written
   std::filesystem::path folder;                           ///< of the results; made when missing
+  pictures::Paper paper = pictures::Paper::kNone;         ///< whether the figure is a PDF as well
 };
 
 /// What a circular test has found.

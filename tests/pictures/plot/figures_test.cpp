@@ -52,6 +52,40 @@ TEST(Figures, ARunHasAllFiguresWithDataAndScriptBeside) {
   }
 }
 
+TEST(Figures, APaperHasAPdfOfOneColumnWithoutTitle) {
+  const TempFolder directory;
+  SyntheticRun run;
+  run.duration = 0.2;
+  ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run));
+  FigureInput input{directory.path(), "trefoil", {}, true};
+  input.paper = Paper::kToo;
+  const auto pictures = write_figures(input);
+  ASSERT_TRUE(pictures) << to_string(pictures.error());
+  EXPECT_EQ(pictures->size(), 9U);
+  const fs::path pdf = directory.path() / "plots/feedrate.pdf";
+  const std::string text = test::content(pdf);
+  const std::size_t box = text.find("/MediaBox [ 0 0 ");
+  ASSERT_NE(box, std::string::npos);
+  EXPECT_NEAR(std::strtod(text.c_str() + box + 16, nullptr), 86.0 / 25.4 * 72.0, 1.5);  // [points]
+  // The next drawing is not for a paper, and leaves no PDF of this one.
+  ASSERT_TRUE(write_figures({directory.path(), "trefoil", {}, true}));
+  EXPECT_FALSE(fs::exists(pdf));
+}
+
+TEST(Figures, TheLineBelowTheTitleHasTheSettingsOfTheRun) {
+  const TempFolder directory;
+  SyntheticRun run;
+  run.duration = 0.2;
+  ASSERT_TRUE(test::write_synthetic_trace(directory.path(), run));
+  std::ofstream(directory.path() / "summary.json") << R"({"planner": "certified", "settings": {
+      "limits": {"acceleration_mm_per_s2": 2450.0, "jerk_mm_per_s3": 50000.0},
+      "planning": {"chord_error_mm": 0.01}}})";
+  ASSERT_TRUE(write_figures({directory.path(), "trefoil", {}, true}));
+  EXPECT_THAT(
+      test::content(directory.path() / "plots/feedrate.gp"),
+      testing::HasSubstr("'certified planner, at most 2450 mm/s² and 50·10³ mm/s³, within 10 µm'"));
+}
+
 TEST(Figures, ARunOnTheWallClockHasItsTimingAndSaysThatItIsSimulated) {
   const TempFolder directory;
   SyntheticRun run;

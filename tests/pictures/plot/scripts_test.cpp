@@ -21,14 +21,14 @@ TEST(Magnification, IsOneWhereThereIsNothingToMagnify) {
 
 TEST(FigureScripts, APlanHasNoFiguresOfTheMachine) {
   std::vector<std::string> names;
-  for (const Script& script : figure_scripts("", {}, true)) {
+  for (const Script& script : figure_scripts({}, {}, true)) {
     names.push_back(script.name);
   }
   EXPECT_THAT(names, testing::ElementsAre("contour", "feedrate", "acceleration_jerk"));
 }
 
 TEST(FigureScripts, ATitleCannotEndItsString) {
-  for (const Script& script : figure_scripts("it's\n!reboot", {}, false)) {
+  for (const Script& script : figure_scripts({"it's\n!reboot", {}}, {}, false)) {
     EXPECT_THAT(script.text, testing::HasSubstr("'it''s !reboot'"));
   }
 }

@@ -174,7 +174,7 @@ TEST(Events, TheReturnToZeroIsToldWithTheTimeOfTheReturn) {
   bench.write(0.5, 0.0);
   bench.pass(100);
   bench.write(0.0, 0.0);  // at 0.1 s
-  bench.pass(50);
+  bench.pass(150);
   bench.write(0.5, 0.0);  // and on again
   bench.pass(5);
   std::vector<Event> seen;
@@ -189,6 +189,31 @@ TEST(Events, TheReturnToZeroIsToldWithTheTimeOfTheReturn) {
   EXPECT_EQ(seen[1].kind, EventKind::kDacAtZero);
   EXPECT_NEAR(seen[1].plant_time, 0.1, 1e-9);
   EXPECT_EQ(seen[2].kind, EventKind::kDacDriven);
+}
+
+TEST(Events, AServoThatCorrectsSingleCountsDoesNotRest) {
+  EmulatorBench bench;
+  for (int k = 0; k < 20; ++k) {
+    bench.write(0.015, 0.0);
+    bench.pass(10);
+    bench.write(0.0, 0.0);
+    bench.pass(30);
+  }
+  int told = 0;
+  for (std::size_t i = 0; i < bench.rig.events().written(); ++i) {
+    told += bench.rig.events()[i].kind == EventKind::kDacAtZero ? 1 : 0;
+  }
+  EXPECT_EQ(told, 0);
+}
+
+TEST(Events, AreToldInTheOrderInWhichTheyHappened) {
+  std::vector<Event> events(3);
+  events[0] = {EventKind::kDacDriven, 0, 0x9000, 0.0, 10};
+  events[1] = {EventKind::kServoOff, 1, 0, 0.3, 300};
+  events[2] = {EventKind::kDacAtZero, 0, 0x8000, 0.25, 250};
+  events = in_order(std::move(events));
+  EXPECT_EQ(events[1].kind, EventKind::kDacAtZero);
+  EXPECT_EQ(events[2].kind, EventKind::kServoOff);
 }
 
 TEST(Events, CrossingZeroIsNoRest) {
