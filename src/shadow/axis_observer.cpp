@@ -9,10 +9,13 @@
 namespace twin::shadow {
 namespace {
 
-constexpr double kLeastWay = 3.0;  // in kMemory periods, of a motion [counts]
+/// Way in kMemory periods of a motion [counts]: slower, and rounding is a saw tooth and no noise.
+constexpr double kLeastWay = 12.0;
 /// Periods of a motion that are left out: what friction and the drive's integral were at rest shows
 /// in them, and nobody knows it.
 constexpr std::size_t kBegin = 3 * AxisObserver::kMemory;
+/// The same where the force is compared, whose filter is over sooner.
+constexpr std::size_t kForceBegin = 32;
 // What a slide stands slower than, and for how long, until it counts as having stood: a smooth turn
 // is over sooner.
 constexpr double kStanding = 0.5;          // [mm/s]
@@ -68,7 +71,11 @@ void AxisObserver::judge_motion(double measured, Observation& seen) noexcept {
     since_motion_ = std::abs(measured - ago(kMemory)) >= least ? 0 : since_motion_ + 1;
     stood_for_ = bank_ && std::abs(bank_->velocity()) < kStanding ? stood_for_ + 1 : 0;
     in_motion_ = since_motion_ < kMemory && stood_for_ < kStoodFor ? in_motion_ + 1 : 0;
-    seen.moves = in_motion_ > kBegin && has_hum_for_ > kBegin;
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      seen.moves[i] = channels_[i] == ChannelKind::kForce
+                          ? in_motion_ > kForceBegin
+                          : in_motion_ > kBegin && has_hum_for_ > kBegin;
+    }
     const double way = ago(kMemory - kAround) - ago(kMemory + kAround);
     const bool is_fast = std::abs(way) >= kFastWay * mm_per_count_;
     seen.direction = !is_fast ? 0.0 : way > 0.0 ? 1.0 : -1.0;

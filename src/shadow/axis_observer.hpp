@@ -33,9 +33,10 @@ struct Recorded {
 /// What an axis shows in a period.
 struct Observation {
   std::array<SignalRow, kChannels> row;  ///< of each channel of the observer
-  bool moves = false;                    ///< the axis moves, and has not just begun to
-  double direction = 0.0;                ///< of the motion kMemory periods ago; 0 where it was slow
-  double counts = 0.0;                   ///< way of the measured position [counts]
+  /// Of each channel, whether the axis moves, and has done so for as long as the channel remembers.
+  std::array<bool, kChannels> moves{};
+  double direction = 0.0;  ///< of the motion kMemory periods ago; 0 where it was slow
+  double counts = 0.0;     ///< way of the measured position [counts]
 };
 
 /// Watches one axis: the channels that its recorded signals allow, and its motion.

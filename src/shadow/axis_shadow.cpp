@@ -23,8 +23,12 @@ AxisShadow::AxisShadow(AxisObserver observer, const std::vector<ChannelBaseline>
                        double period, double hours)
     : observer_(std::move(observer)), period_(period) {
   const double block = static_cast<double>(Evidence::kBlock) * period;
-  for (std::size_t i = 0; i < baselines.size(); ++i) {
-    const ChannelBaseline& baseline = baselines[i];
+  for (const ChannelBaseline& baseline : baselines) {
+    const auto at = std::ranges::find(observer_.channels(), baseline.kind);
+    if (at == observer_.channels().end()) {
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(at - observer_.channels().begin());
     Whitener whitener(baseline.coefficients, is_differenced(baseline.kind));
     Evidence evidence(baseline,
                       shapes_of(whitener, observer_.count_step(i), observer_.force_response(i)));
@@ -36,7 +40,8 @@ AxisShadow::AxisShadow(AxisObserver observer, const std::vector<ChannelBaseline>
                          {},
                          std::nullopt,
                          {},
-                         0});
+                         0,
+                         i});
   }
   strip_.reserve(kMostPoints + 1);
 }
@@ -114,12 +119,11 @@ bool AxisShadow::step(const AxisSample& sample, double time, std::int64_t line) 
   const Observation seen = observer_.step(sample);
   now_.time = time;
   now_.line = line;
-  now_.moving += seen.moves ? period_ : 0.0;
+  now_.moving += std::ranges::count(seen.moves, true) > 0 ? period_ : 0.0;
   bool is_new = false;
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    Channel& channel = channels_[i];
+  for (Channel& channel : channels_) {
     SignalRow white;
-    if (!channel.whitener.step(seen.row[i], white) || !seen.moves) {
+    if (!channel.whitener.step(seen.row[channel.number], white) || !seen.moves[channel.number]) {
       channel.evidence.interrupt();
     } else if (channel.evidence.add(white, seen.direction, seen.counts, now_)) {
       is_new = test(channel) || is_new;

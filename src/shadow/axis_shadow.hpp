@@ -71,7 +71,8 @@ class AxisShadow {
     PerParameter information{};
     std::optional<Moment> crossed;  // when the threshold was
     Cause favourite = Cause::kFriction;
-    int same = 0;  // blocks in a row with this favourite
+    int same = 0;            // blocks in a row with this favourite
+    std::size_t number = 0;  // of the observer's channel
   };
   Finding judge(const Channel& channel) const;
   bool test(Channel& channel);

@@ -16,6 +16,9 @@ constexpr double kFloor = 1e-6;                     // white noise added to keep
 constexpr int kRounds = 2;
 /// Windows over which scores are taken, in blocks of Evidence.
 constexpr std::array<std::size_t, 3> kWindows{5, 20, 80};
+/// Motion below which the shortest windows are shorter, so that there are some [periods].
+constexpr std::size_t kShortMotion = 5000;
+constexpr std::size_t kShortestWindow = 2;
 
 using Matrix = std::array<PerParameter, kParameters>;
 
@@ -185,7 +188,8 @@ void fit_spread(const Scores& scores, double& excess, double& scatter) {
 
 /// Learns excess and scatter from the blocks of each recording.
 void fit_spreads(const std::vector<ChannelSeries>& all, double step,
-                 const std::vector<double>& force_response, ChannelBaseline& baseline) {
+                 const std::vector<double>& force_response, std::size_t moving,
+                 ChannelBaseline& baseline) {
   std::array<Scores, kParameters> scores;
   baseline.windows = 0;
   double step_gain = 0.0;
@@ -208,7 +212,9 @@ void fit_spreads(const std::vector<ChannelSeries>& all, double step,
         blocks.push_back(evidence.blocks().back());
       }
     }
-    for (const std::size_t length : kWindows) {
+    for (std::size_t length : kWindows) {
+      const bool is_shortest = length == kWindows.front();
+      length = is_shortest && moving < kShortMotion ? kShortestWindow : length;
       for (std::size_t first = 0; first + length <= blocks.size(); first += length) {
         Evidence::Block sum;
         for (std::size_t b = first; b < first + length; ++b) {
@@ -219,7 +225,7 @@ void fit_spreads(const std::vector<ChannelSeries>& all, double step,
             sum.information[i] += blocks[b].information[i];
           }
         }
-        baseline.windows += length == kWindows.front() ? 1 : 0;
+        baseline.windows += is_shortest ? 1 : 0;
         step_gain = std::max(step_gain, sum.steps);
         force_gain = std::max(force_gain, sum.force.gain);
         for (std::size_t i = 0; i < kParameters; ++i) {
@@ -265,7 +271,7 @@ Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<Chan
         autoregression(covariance_of(series, order, is_differenced(kind), baseline.mean));
     fit_means(series, known, baseline);
   }
-  fit_spreads(series, step, force_response, baseline);
+  fit_spreads(series, step, force_response, moving, baseline);
   return baseline;
 }
 

@@ -22,7 +22,7 @@ struct ChannelSeries {
 /// The whitening filter is an autoregression on the residual of the motion. Then the means of the
 /// parameters come by least squares over all of it, held near 0 as loosely as the parameters are
 /// known at all, and their signatures are taken off; filter and means are found twice. Over windows
-/// of 0.25 s, 1 s and 4 s of motion, scores h with information G then tell the excess q and the
+/// of 250, 1,000 and 4,000 periods of motion, scores h with information G then tell the excess q and the
 /// scatter t of var h = q s^2 G + t^2 G^2.
 ///
 /// @param known  deviations of the parameters  @param limit  their largest plausible changes
@@ -35,6 +35,6 @@ Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<Chan
                                         double step, const std::vector<double>& force_response);
 
 /// Least motion of an axis that something can be learnt from, in periods.
-inline constexpr std::size_t kLeastMotion = 1000;
+inline constexpr std::size_t kLeastMotion = 500;
 
 }  // namespace twin::shadow

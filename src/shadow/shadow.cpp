@@ -22,7 +22,7 @@ std::vector<ChannelSeries> series_of(AxisObserver observer, const Track& track, 
     for (std::size_t i = 0; i < series.size(); ++i) {
       series[i].rows.push_back(seen.row[i]);
       series[i].counts.push_back(seen.counts);
-      series[i].moves.push_back(seen.moves ? 1 : 0);
+      series[i].moves.push_back(seen.moves[i] ? 1 : 0);
       series[i].direction.push_back(seen.direction);
     }
   }
@@ -59,11 +59,18 @@ Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& mac
     }
   }
   std::vector<ChannelBaseline> learnt;
+  std::optional<Error> why;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
-    TWIN_TRY(ChannelBaseline channel,
-             learn_channel(kinds[i], by_channel[i], loosely_known(machine.table.axis[axis]),
-                           plausible(machine.table.axis[axis]), steps[i], forces[i]));
-    learnt.push_back(std::move(channel));
+    auto channel = learn_channel(kinds[i], by_channel[i], loosely_known(machine.table.axis[axis]),
+                                 plausible(machine.table.axis[axis]), steps[i], forces[i]);
+    if (channel) {
+      learnt.push_back(*std::move(channel));
+    } else {
+      why = channel.error();
+    }
+  }
+  if (learnt.empty() && why) {
+    return tl::unexpected(*why);
   }
   return learnt;
 }
@@ -144,11 +151,10 @@ Expected<void> check_signals(const Baseline& baseline, const Track& track,
       return wrong("is not recorded, and what was learnt has it");
     }
     const AxisObserver observer(machine, axis, false, track.recorded[axis]);
-    std::vector<ChannelKind> learnt;
-    for (const ChannelBaseline& channel : baseline.axis[axis]) {
-      learnt.push_back(channel.kind);
-    }
-    if (learnt != observer.channels()) {
+    const auto has = [&observer](const ChannelBaseline& channel) {
+      return std::ranges::count(observer.channels(), channel.kind) > 0;
+    };
+    if (!std::ranges::all_of(baseline.axis[axis], has)) {
       return wrong(
           "has other signals than those that were learnt with: drive command, force and "
           "scale must be the same");

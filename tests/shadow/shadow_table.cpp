@@ -23,12 +23,12 @@ const std::vector<std::string> kPrograms{"butterfly", "butterfly_nurbs", "circle
 constexpr double kHours = 1000.0;
 constexpr std::array<double, 3> kFeedrates{1000.0, 3000.0, 6000.0};
 
-/// One healthy run of each program, at 2,000 mm/min, which no run of the tables has.
+/// One healthy run of each program at each feedrate, with phases that no run of the tables has.
 Baseline learnt(const config::MachineFile& machine, bool gives) {
-  std::vector<Track> tracks(kPrograms.size());
+  std::vector<Track> tracks(kPrograms.size() * kFeedrates.size());
   parallel_for(tracks.size(), [&](std::size_t i) {
-    tracks[i] = record(machine, {.program = kPrograms[i],
-                                 .feedrate_mm_per_min = 2000.0,
+    tracks[i] = record(machine, {.program = kPrograms[i % kPrograms.size()],
+                                 .feedrate_mm_per_min = kFeedrates[i / kPrograms.size()],
                                  .seed = 1000 + static_cast<unsigned>(i)});
   });
   return checked(learn(machine, tracks, gives));

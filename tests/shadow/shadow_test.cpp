@@ -228,7 +228,7 @@ TEST(Shadow, APeriodThatFindsNothingAllocatesNothing) {
 TEST(Learning, MotionThatIsTooShortIsRefused) {
   const auto machine = table_machine();
   Track track = record(machine, {.program = "circle", .feedrate_mm_per_min = 6000.0});
-  track.samples.resize(900);
+  track.samples.resize(700);
   const auto refused = learn(machine, {track}, false);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("are too few to learn from"));
