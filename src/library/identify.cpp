@@ -11,6 +11,39 @@
 #include "studies/identify/recording_columns.hpp"
 
 namespace twin {
+namespace {
+
+std::vector<studies::identify::Recording> recordings_of(const std::vector<std::string>& traces,
+                                                        const studies::identify::ColumnMap& columns,
+                                                        const config::MachineFile& machine) {
+  std::vector<studies::identify::Recording> recordings;
+  for (const std::string& trace : traces) {
+    std::ranges::move(value_of(studies::identify::read_recordings(trace, columns, machine.limits)),
+                      std::back_inserter(recordings));
+  }
+  return recordings;
+}
+
+std::vector<Validation> validations_of(const studies::identify::Identification& result) {
+  std::vector<Validation> list;
+  for (const studies::identify::Validation& one : result.validations) {
+    Validation& validation = list.emplace_back();
+    validation.trace = one.trace;
+    validation.axis = one.axis == hal::kX ? "x" : "y";
+    validation.is_held_out = one.is_held_out;
+    validation.tracking_rms = one.tracking.rms;
+    validation.twin_rms = one.twin.rms;
+    validation.twin_max = one.twin.max;
+    validation.delay_rms = one.delay.rms;
+    validation.filter_rms = one.filter.rms;
+    if (one.force && one.force->measured_rms > 0.0) {
+      validation.force_error = one.force->twin.rms / one.force->measured_rms;
+    }
+  }
+  return list;
+}
+
+}  // namespace
 
 Identification identify(const std::vector<std::string>& traces, const Settings& start,
                         const IdentifyOptions& options) {
@@ -24,14 +57,12 @@ Identification identify(const std::vector<std::string>& traces, const Settings& 
   fit.stop = options.stop;
   fit.progress = options.progress;
   const auto columns = value_of(inner::parse_columns(options.columns));
-  std::vector<inner::Recording> recordings;
-  for (const std::string& trace : traces) {
-    std::ranges::move(value_of(inner::read_recordings(trace, columns, machine.limits)),
-                      std::back_inserter(recordings));
-  }
-  const inner::Identification result = value_of(inner::identify(recordings, machine, fit));
+  const auto recordings = recordings_of(traces, columns, machine);
+  const auto validating = recordings_of(options.validating, columns, machine);
+  const inner::Identification result =
+      value_of(inner::identify(recordings, machine, fit, validating));
   return {Inside::settings(result.machine), inner::to_machine_file(result), inner::to_table(result),
-          inner::to_json(result, ""), result.notes};
+          inner::to_json(result, ""),       validations_of(result),         result.notes};
 }
 
 }  // namespace twin

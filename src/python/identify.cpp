@@ -19,13 +19,14 @@ void bind_identify(py::module_& module) {
   module.def(
       "identify",
       [](const std::vector<std::string>& traces, const Settings& start, std::string columns,
-         std::vector<std::string> fixed, std::vector<std::string> freed, std::size_t evaluations,
-         std::uint32_t seed) {
+         std::vector<std::string> fixed, std::vector<std::string> freed,
+         std::vector<std::string> validating, std::size_t evaluations, std::uint32_t seed) {
         std::atomic<bool> stop{false};
         IdentifyOptions options;
         options.columns = std::move(columns);
         options.fixed = std::move(fixed);
         options.freed = std::move(freed);
+        options.validating = std::move(validating);
         options.evaluations = evaluations;
         options.seed = seed;
         options.stop = &stop;
@@ -34,7 +35,8 @@ void bind_identify(py::module_& module) {
       },
       py::arg("traces"), py::arg("start"), py::kw_only(), py::arg("columns") = "",
       py::arg("fixed") = std::vector<std::string>(), py::arg("freed") = std::vector<std::string>(),
-      py::arg("evaluations") = 0, py::arg("seed") = 1);
+      py::arg("validating") = std::vector<std::string>(), py::arg("evaluations") = 0,
+      py::arg("seed") = 1);
 }
 
 }  // namespace twin::python

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
+#include "tests/support/temp_folder.hpp"
 #include "twin/twin.hpp"
 
 namespace twin {
@@ -176,6 +178,27 @@ TEST(Identify, ATraceThatIsMissingIsNamed) {
   const Error error = failure_of([] { identify({"none.csv"}, Settings()); });
   EXPECT_EQ(error.code, ErrorCode::kFile);
   EXPECT_THAT(to_string(error), testing::HasSubstr("none.csv"));
+}
+
+TEST(Identify, ATraceToValidateWithThatIsMissingIsNamed) {
+  const test::TempFolder folder;
+  std::string trace = "t_s,x_ref_mm,x_enc_mm\n";
+  for (int k = 0; k < 3000; ++k) {
+    const double x = 10.0 - 10.0 * std::cos(2e-3 * k);
+    trace += std::to_string(1e-3 * k) + "," + std::to_string(x) + "," +
+             std::to_string(0.01 * std::floor(100.0 * x)) + "\n";
+  }
+  IdentifyOptions options{.columns = "t=t_s,x_cmd=x_ref_mm,x_meas=x_enc_mm", .evaluations = 1};
+  const std::string file = folder.put("trace.csv", trace).string();
+  options.validating = {file};
+  const Identification found = identify({file}, Settings(), options);
+  ASSERT_EQ(found.validations.size(), 1U);
+  EXPECT_EQ(found.validations[0].axis, "x");
+  EXPECT_FALSE(found.validations[0].is_held_out);
+  EXPECT_GT(found.validations[0].tracking_rms, 0.0);
+  EXPECT_LT(found.validations[0].force_error, 0.0);
+  options.validating = {"none.csv"};
+  EXPECT_EQ(failure_of([&] { identify({file}, Settings(), options); }).file, "none.csv");
 }
 
 TEST(Identify, AKeyThatNoTraceShowsIsRefusedWithTheNearestOne) {

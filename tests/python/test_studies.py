@@ -27,6 +27,20 @@ def test_compare_runs_every_program_on_every_machine():
     assert soft > stiff and all(row["failure"] is None for row in rows)
 
 
+def test_identify_predicts_a_recording_that_was_not_fitted(tmp_path):
+    text = "G21 G90\nG1 X{0} F3000\nX0\nX{0} F600\nX0\nM30\n"
+    for way in (12, 9):
+        twin.run(twin.Program.from_text(text.format(way)), folder=tmp_path / str(way), keep_trace=False)
+    found = twin.identify(
+        tmp_path / "12/trace.csv", validate=tmp_path / "9/trace.csv", evaluations=1
+    )
+    assert {p["key"].split(".")[1] for p in found.parameters} == {"x"}
+    (validation,) = found.validations
+    assert validation["axis"] == "x" and not validation["held_out"]
+    held_out = twin.identify(tmp_path / "12/trace.csv", evaluations=1).validations
+    assert all(one["held_out"] for one in held_out)
+
+
 def test_converted_program_takes_the_same_way():
     text = twin.convert("oxalis.nc", "g6.2")
     converted = twin.check(twin.Program.from_text(text, "converted.nc"))

@@ -154,7 +154,15 @@ def read_trace(file):
 
 
 def identify(
-    traces, machine="xy_table.toml", *, columns="", fixed=(), freed=(), evaluations=0, seed=1
+    traces,
+    machine="xy_table.toml",
+    *,
+    columns="",
+    fixed=(),
+    freed=(),
+    validate=(),
+    evaluations=0,
+    seed=1,
 ):
     """Fits a machine's parameters to traces recorded on it.
 
@@ -164,19 +172,24 @@ def identify(
         columns: which columns are which signal, "SIGNAL=COLUMN[:UNIT],..."; "": as trace.csv
         fixed: keys that keep their value
         freed: keys that are fitted though they would be held
+        validate: a recording that is predicted and not fitted, or several; (): the last 30 % of each trace
         evaluations: simulations of the global search; 0: as many as usual
         seed: of the global search; the same seed gives the same result
 
     Returns:
         Identification
     """
-    files = [traces] if isinstance(traces, (str, os.PathLike)) else traces
+    def paths(given):
+        files = [given] if isinstance(given, (str, os.PathLike)) else given
+        return [os.fspath(file) for file in files]
+
     found = _twin.identify(
-        [os.fspath(file) for file in files],
+        paths(traces),
         _settings(machine),
         columns=columns,
         fixed=list(fixed),
         freed=list(freed),
+        validating=paths(validate),
         evaluations=evaluations,
         seed=seed,
     )

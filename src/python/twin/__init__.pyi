@@ -127,6 +127,7 @@ class Identification:
     machine: Machine
     report: dict[str, Any]
     parameters: list[dict[str, Any]]
+    validations: list[dict[str, Any]]
     table: str
     toml: str
     notes: list[str]
@@ -261,6 +262,7 @@ def identify(
     columns: str = "",
     fixed: Iterable[str] = (),
     freed: Iterable[str] = (),
+    validate: Union[_Path, Iterable[_Path]] = (),
     evaluations: int = 0,
     seed: int = 1,
 ) -> Identification: ...

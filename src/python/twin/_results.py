@@ -119,7 +119,9 @@ class Identification:
 
     Attributes:
         machine: the Machine of the start with everything that was identified
-        parameters: a list of dicts as identify.json has them, with value, deviation and verdict
+        parameters: a list of dicts as identify.json has them, of both axes, with value, deviation and verdict
+        validations: a list of dicts as identify.json has them: what was predicted and not fitted,
+            measured less simulated position beside simpler models, for each axis
         report: all of identify.json as a dict
         table: what `twin identify` prints
         toml: a machine file that says where each value is from
@@ -129,7 +131,9 @@ class Identification:
     def __init__(self, found, machine):
         self.machine = machine
         self.report = json.loads(found.json)
-        self.parameters = self.report.get("parameters", [])
+        axes = [axis for axis in self.report["axis"].values() if axis is not None]
+        self.parameters = [parameter for axis in axes for parameter in axis["parameters"]]
+        self.validations = self.report["validations"]
         self.table = found.table
         self.toml = found.toml
         self.notes = found.notes
