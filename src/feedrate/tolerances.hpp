@@ -25,6 +25,10 @@ inline constexpr double kDistanceRounding = 1e-9;
 /// nothing: 0.01 mm/s^2 at a period of 1 ms.
 inline constexpr double kRestRounding = 1e-8;
 
+/// A stop that has come down to this feedrate is over [mm/s]. What it has left of its deceleration
+/// is rounding, and it would not reach the end of a stretch in any time.
+inline constexpr double kRestFeedrate = 1e-6;
+
 /// How closely an ascent touches the corner of a limit [mm].
 ///
 /// It is a tenth of kPlaceRounding, so that an ascent that touches is not seen as one that passes

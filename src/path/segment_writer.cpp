@@ -82,7 +82,7 @@ void SegmentWriter::flush() {
   const double end = pieces_.back().end;
   FittedCurve fitted;
   fitted.curve = geometry::curve_from_pieces(pieces_);
-  measure(fitted, geometry::Sampling::kSparse);
+  measure(fitted, sampling_);
   Segment segment = make_curve_segment(std::move(fitted));
   segment.deviation = deviation_;
   const auto& curve = std::get<FittedCurve>(segment.geometry);

@@ -43,7 +43,10 @@ struct BlockDemand {
 /// block that ended last.
 class SegmentWriter {
  public:
-  explicit SegmentWriter(Builder::Sink sink) : sink_(std::move(sink)) {}
+  /// @param sampling  of the curvature of curves; sparse where only the largest curvature of a place
+  ///                  counts, and not how it changes
+  SegmentWriter(Builder::Sink sink, geometry::Sampling sampling)
+      : sink_(std::move(sink)), sampling_(sampling) {}
 
   void add_block(const BlockDemand& block);
 
@@ -79,6 +82,7 @@ class SegmentWriter {
   void emit(Segment&& segment);
 
   Builder::Sink sink_;
+  geometry::Sampling sampling_;
   geometry::SlidingVector<BlockDemand> blocks_;  // blocks that may lie on further pieces
   BlockDemand latest_;                           // last block that has ended
   std::size_t at_ = 0;     // block of the latest piece; one past the last where none is left for it

@@ -15,6 +15,13 @@ namespace {
 constexpr double kSpeck = 0.01;
 constexpr double kLargestSpeck = 1e-3;  // whatever the tolerance [mm]
 
+/// Limits of axes and of the jerk as a vector depend on how the curvature changes along a curve.
+geometry::Sampling sampling_for(const Limits& limits) {
+  const bool has_changes = limits.jerk_of == JerkOf::kVector ||
+                           !limits.axis_acceleration.isZero() || !limits.axis_jerk.isZero();
+  return has_changes ? geometry::Sampling::kEven : geometry::Sampling::kSparse;
+}
+
 }  // namespace
 
 SmoothBuilder::SmoothBuilder(const PathSettings& settings, const PlanningModel& model,
@@ -23,7 +30,7 @@ SmoothBuilder::SmoothBuilder(const PathSettings& settings, const PlanningModel& 
       model_(model),
       limits_(limits),
       judge_(std::move(judge)),
-      writer_(std::move(sink)),
+      writer_(std::move(sink), sampling_for(limits)),
       joiner_(writer_, limits, settings.corners, judge_.get()),
       run_(joiner_) {}
 

@@ -142,6 +142,9 @@ Brake make_slowdown(const PathMotion& from, const RampLimits& limits, double dis
 
 StopPart make_stop_part(const PathMotion& from, const Stretch& stretch) noexcept {
   const double room = stretch.end - from.s;
+  if (from.v <= kRestFeedrate) {
+    return {make_hold({from.s, kRestFeedrate, 0.0}, 0.0), true};
+  }
   if (from.v > stretch.held_above) {
     return {make_hold(from, std::max(room, 0.0)), false};
   }
