@@ -62,7 +62,7 @@ constexpr double kSwing = 0.25;
 
 /// Ratios of the accelerations and of the jerks that are told apart where they change along a curve.
 /// Larger steps leave less of them, smaller ones make more places where they change.
-constexpr double kAccelerationStep = 1.08;
+constexpr double kAccelerationStep = 1.25;
 constexpr double kJerkStep = 1.06;
 
 /// The highest step that is not above a value, counted from the value on a line.

@@ -11,10 +11,6 @@ namespace {
 /// the ramps beside them slower, for the tangential motion gets what is left.
 constexpr double kNormalShare = 0.75;
 
-/// The same in brief bends, where the axis has no limit of jerk. They are over before a ramp in them
-/// gets far.
-constexpr double kBriefNormalShare = 0.93;
-
 /// Share of an axis's jerk for what bends need of it, on an axis square to the path, and how much
 /// less of it on an axis along the path. More makes bends faster, and leaves less jerk for ramps.
 constexpr double kBendShare = 0.95;
@@ -48,9 +44,7 @@ void keep_feedrate(const PathBounds& path, int axis, const Limits& limits, BendK
     zone.limit = std::min(zone.limit, limits.axis_feedrate[axis] / t);
   }
   if (limits.axis_acceleration[axis] > 0.0 && k > kTiny) {
-    const bool is_brief = bend == BendKind::kBrief && limits.axis_jerk[axis] == 0.0;
-    const double share = is_brief ? kBriefNormalShare : kNormalShare;
-    zone.limit = std::min(zone.limit, std::sqrt(share * limits.axis_acceleration[axis] / k));
+    zone.limit = std::min(zone.limit, std::sqrt(kNormalShare * limits.axis_acceleration[axis] / k));
   }
   const double jerk = limits.axis_jerk[axis];
   if (jerk > 0.0 && twist > kTiny) {
