@@ -45,7 +45,8 @@ class SegmentWriter {
  public:
   /// @param sampling  of the curvature of curves; sparse where only the largest curvature of a place
   ///                  counts, and not how it changes
-  SegmentWriter(Builder::Sink sink, geometry::Sampling sampling)
+  explicit SegmentWriter(Builder::Sink sink,
+                         geometry::Sampling sampling = geometry::Sampling::kSparse)
       : sink_(std::move(sink)), sampling_(sampling) {}
 
   void add_block(const BlockDemand& block);

@@ -45,7 +45,7 @@ TEST_F(LinuxCncTest, ARunNeedsLinuxCncsComponent) {
                  "machine 'linuxcnc' is real and would move");
   expect_refusal(twin({"run", "ok.nc", "--hal", "linuxcnc", "--i-know-it-moves", "--fault",
                        "alarm:x@1", "--out", "out"}),
-                 2, "twin plant takes --fault by itself");
+                 2, "twin plant takes --fault and --change by itself");
 }
 
 TEST_F(LinuxCncTest, CompareKnowsOneOtherController) {

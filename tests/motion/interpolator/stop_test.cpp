@@ -191,6 +191,20 @@ void expect_stops(const test::Plan& plan, const test::PlanSettings& settings, in
   }
 }
 
+// A part of a stop had lost all of the feedrate, and had 0.16 mm/s^2 of deceleration left by rounding
+// within its stretch. The part behind it took no time and covered no distance, for ever.
+TEST(StopPart, WithNothingLeftOfTheFeedrateTheStopIsOver) {
+  feedrate::Stretch stretch;
+  stretch.end = 0.0398;
+  stretch.ramp = {926.878, 5461.94};
+  for (const double v : {0.0, 1e-9}) {
+    const auto part = feedrate::make_stop_part({0.0199, v, -0.16}, stretch);
+    EXPECT_TRUE(part.rests) << v;
+    EXPECT_EQ(part.brake.duration, 0.0) << v;
+    EXPECT_EQ(feedrate::end_of(part.brake).s, 0.0199) << v;
+  }
+}
+
 TEST(StopUnderAxisLimits, KeepsThemFromRandomInstantsOfRandomPrograms) {
   std::mt19937 random(11);
   Costs costs;
