@@ -48,7 +48,8 @@ TEST_F(Shadow, LearnsWatchesAndEndsARun) {
 TEST_F(Shadow, WhatItCannotWatchIsRefused) {
   expect_refusal(run("out", {"--shadow", "--set", "table.identified=false"}), 1,
                  "table.identified is false");
-  expect_refusal(run("out", {"--shadow", "--hal", "ideal"}), 2, "this one's position is its set point");
+  expect_refusal(run("out", {"--shadow", "--hal", "ideal"}), 2,
+                 "this one's position is its set point");
   expect_refusal(run("out", {"--change", "wear:x=2@1"}), 2, "'wear' is no kind of change");
   expect_refusal(run("out", {"--change", "force:x=5@1", "--hal", "ideal"}), 2, "--hal ideal");
 }
