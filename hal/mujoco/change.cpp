@@ -14,25 +14,26 @@
 namespace twin::hal::mujoco {
 namespace {
 
-/// A kind of change: where it starts from, and which values it may reach.
+/// A kind of change: what it changes, and which values it may reach.
 struct KindFacts {
   std::string_view name;
-  double neutral;  // value before the change
+  double AxisCondition::*changed;
   double min;
   double max;
   double to_base;  // base unit of the condition per unit of the text
 };
 
 // In the order of ChangeKind.
-constexpr std::array<KindFacts, kChangeKinds> kFacts{{{"friction", 1.0, 0.0, 100.0, 1.0},
-                                                      {"stiffness", 1.0, 0.01, 4.0, 1.0},
-                                                      {"vref_gain", 1.0, -10.0, 10.0, 1.0},
-                                                      {"vref_offset", 0.0, -1000.0, 1000.0, 1e-3},
-                                                      {"loop_gain", 1.0, 0.01, 10.0, 1.0},
-                                                      {"encoder_slip", 0.0, 0.0, 1000.0, 1e-3},
-                                                      {"backlash", 0.0, 0.0, 1000.0, 1e-3},
-                                                      {"load", 0.0, 0.0, 1000.0, 1.0},
-                                                      {"force", 0.0, -1e5, 1e5, 1.0}}};
+constexpr std::array<KindFacts, kChangeKinds> kFacts{
+    {{"friction", &AxisCondition::friction, 0.0, 100.0, 1.0},
+     {"stiffness", &AxisCondition::stiffness, 0.01, 4.0, 1.0},
+     {"vref_gain", &AxisCondition::vref_gain, -10.0, 10.0, 1.0},
+     {"vref_offset", &AxisCondition::vref_offset, -1000.0, 1000.0, 1e-3},
+     {"loop_gain", &AxisCondition::loop_gain, 0.01, 10.0, 1.0},
+     {"encoder_slip", &AxisCondition::lost_share, 0.0, 1000.0, 1e-3},
+     {"backlash", &AxisCondition::backlash, 0.0, 1000.0, 1e-3},
+     {"load", &AxisCondition::mass, 0.0, 1000.0, 1.0},
+     {"force", &AxisCondition::force, -1e5, 1e5, 1.0}}};
 
 const KindFacts& facts_of(ChangeKind kind) noexcept {
   return kFacts[static_cast<std::size_t>(kind)];
@@ -66,39 +67,6 @@ Expected<void> take_times(std::string_view text, std::string_view times, Change&
   change.start = *start;
   change.ramp = *ramp;
   return {};
-}
-
-/// Puts the value of a kind into a condition.
-void apply_value(ChangeKind kind, double value, AxisCondition& condition) noexcept {
-  switch (kind) {
-    case ChangeKind::kFriction:
-      condition.friction = value;
-      break;
-    case ChangeKind::kStiffness:
-      condition.stiffness = value;
-      break;
-    case ChangeKind::kVrefGain:
-      condition.vref_gain = value;
-      break;
-    case ChangeKind::kVrefOffset:
-      condition.vref_offset = value;
-      break;
-    case ChangeKind::kLoopGain:
-      condition.loop_gain = value;
-      break;
-    case ChangeKind::kEncoderSlip:
-      condition.lost_share = value;
-      break;
-    case ChangeKind::kBacklash:
-      condition.backlash = value;
-      break;
-    case ChangeKind::kLoad:
-      condition.mass = value;
-      break;
-    case ChangeKind::kForce:
-      condition.force = value;
-      break;
-  }
 }
 
 }  // namespace
@@ -156,8 +124,9 @@ AxisCondition condition_at(const std::vector<Change>& changes, std::size_t axis,
     const double passed = time - change.start;
     const double share = passed < change.ramp ? passed / change.ramp : 1.0;
     const KindFacts& facts = facts_of(change.kind);
-    const double value = facts.neutral + share * (change.value - facts.neutral);
-    apply_value(change.kind, value * facts.to_base, condition);
+    // The condition before the change: 1 of a factor, which has no other unit, or 0.
+    const double before = AxisCondition{}.*facts.changed;
+    condition.*facts.changed = (before + share * (change.value - before)) * facts.to_base;
   }
   return condition;
 }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -11,9 +14,11 @@
 #include "cli/run_command.hpp"
 #include "cli/study_commands.hpp"
 #include "cli/terminal.hpp"
+#include "motion/correction/correction_follower.hpp"
 #include "runtime/correction_file.hpp"
 #include "session/results.hpp"
 #include "studies/compensate/learning.hpp"
+#include "twin/trace.hpp"
 
 // Corrections of set points: twin compensate, run --compensate, run --learn.
 namespace twin::cli {
@@ -60,7 +65,28 @@ Expected<void> check_learning(const CorrectionArguments& arguments,
   return {};
 }
 
-}  // namespace
+/// The correction of a run by --compensate and --learn: found before the run, made better after it.
+class CorrectedRun {
+ public:
+  /// Reads or makes the correction and puts it into the request of the run. Nothing moves before a
+  /// correction that does not fit has been refused.
+  static Expected<CorrectedRun> prepare(const CorrectionArguments& arguments,
+                                        session::Request& request, Verbosity verbosity,
+                                        const std::atomic<bool>& stop);
+
+  /// With --learn: makes a better correction of what the run has measured, unless the run ended
+  /// early or left the plan of its correction.
+  Expected<void> learn_from(const runtime::RunResult& result, const std::atomic<bool>& stop);
+
+ private:
+  CorrectionArguments arguments_;
+  gcode::ProgramText program_;
+  config::MachineFile machine_;
+  std::optional<double> feedrate_;
+  Verbosity verbosity_ = Verbosity::kNormal;
+  std::shared_ptr<const motion::Correction> correction_;
+  std::unique_ptr<MemoryTrace> trace_;
+};
 
 Expected<CorrectedRun> CorrectedRun::prepare(const CorrectionArguments& arguments,
                                              session::Request& request, Verbosity verbosity,
@@ -134,8 +160,7 @@ Expected<void> CorrectedRun::learn_from(const runtime::RunResult& result,
   return {};
 }
 
-namespace {
-
+/// Correction, learning and prediction of a run.
 class StudiedRun : public RunCompanion {
  public:
   StudiedRun(const RunArguments& arguments, const std::atomic<bool>& stop)

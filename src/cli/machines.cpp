@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "config/find_file.hpp"
 #include "core/atomic_file.hpp"
+#include "core/this_program.hpp"
 #include "hal/linuxcnc/linuxcnc_machine.hpp"
 #include "hal/rig/assemble/make_rig.hpp"
 #include "hal/rig/assemble/rig_ports.hpp"
@@ -44,11 +45,6 @@ Expected<void> confirm_motion(const hal::MachineInfo& machine, session::Consent 
     return fail(ErrorCode::kInterrupted, "not confirmed: nothing has moved");
   }
   return {};
-}
-
-/// The guard stands beside the program.
-std::filesystem::path guard_program() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "twin-guard";
 }
 
 /// Writes what happened at the emulated boards, when all is over.
@@ -161,7 +157,7 @@ Expected<std::unique_ptr<hal::Machine>> open_rig(const RigArguments& arguments,
   }
   rig::assemble::RigSetup setup = setup_of(arguments, machine);
   if (kind != RigKind::kEmulated) {
-    setup.guard_program = guard_program();
+    setup.guard_program = program_beside("twin-guard");
   }
   for (const std::string& text : arguments.faults) {
     TWIN_TRY(const rig::emulator::Fault fault, rig::emulator::parse_fault(text));

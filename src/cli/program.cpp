@@ -1,9 +1,9 @@
 #include "cli/program.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -12,13 +12,11 @@
 
 #include "cli/interruption.hpp"
 #include "cli/terminal.hpp"
+#include "core/atomic_file.hpp"
 #include "core/this_program.hpp"
 
 namespace twin::cli {
 namespace {
-
-/// It stands beside `twin`.
-constexpr const char* kStudiesProgram = "twin-studies";
 
 /// Opens standard streams that the caller has closed, so that no file of ours gets the number of one
 /// and is printed into. Reading from and writing to them fail as they would have.
@@ -32,15 +30,9 @@ void fill_closed_streams() {
 
 /// Puts the program that has the studies in the place of this one. @returns why it could not
 Expected<void> hand_over(char** argv) {
-  std::string places;
-  for (const std::filesystem::path& folder : own_folders()) {
-    const std::filesystem::path program = folder / kStudiesProgram;
-    execv(program.c_str(), argv);
-    places += " " + program.string();
-  }
-  return fail(ErrorCode::kFile,
-              fmt::format("this command is of the program {}, which could not be started: {}",
-                          kStudiesProgram, places));
+  const std::filesystem::path program = program_beside("twin-studies");
+  execv(program.c_str(), argv);
+  return file_error(program, "start the program of this command", errno);
 }
 
 /// @param argv  as main() has it, with a null pointer at its end

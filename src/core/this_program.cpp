@@ -46,6 +46,10 @@ std::vector<std::filesystem::path> own_folders() {
   return folders;
 }
 
+std::filesystem::path program_beside(std::string_view name) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
 std::string shell_quoted(std::span<const char* const> words) {
   std::string line;
   for (const char* const word : words) {

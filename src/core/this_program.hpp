@@ -18,6 +18,9 @@ std::string_view version() noexcept;
 /// beside them.
 std::vector<std::filesystem::path> own_folders();
 
+/// The program of this name beside the running one, whether it is there or not.
+std::filesystem::path program_beside(std::string_view name);
+
 /// Words as one line that a POSIX shell would take apart into the same words:
 ///   twin run 'my program.nc'
 std::string shell_quoted(std::span<const char* const> words);

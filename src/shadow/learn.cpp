@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/row_algebra.hpp"
 #include "shadow/evidence.hpp"
 #include "shadow/whitener.hpp"
 
@@ -19,8 +20,6 @@ constexpr std::array<std::size_t, 3> kWindows{5, 20, 80};
 /// Motion below which the shortest windows are shorter, so that there are some [periods].
 constexpr std::size_t kShortMotion = 5000;
 constexpr std::size_t kShortestWindow = 2;
-
-using Matrix = std::array<PerParameter, kParameters>;
 
 double value_at(const ChannelSeries& series, std::size_t k, const PerParameter& mean) {
   double value = series.rows[k].residual;
@@ -75,38 +74,10 @@ void for_white(const std::vector<ChannelSeries>& all, const ChannelBaseline& bas
   }
 }
 
-/// Solves a symmetric positive definite system by Cholesky's method.
-PerParameter solve(Matrix a, PerParameter b) {
-  for (std::size_t j = 0; j < kParameters; ++j) {
-    for (std::size_t k = 0; k < j; ++k) {
-      for (std::size_t i = j; i < kParameters; ++i) {
-        a[i][j] -= a[i][k] * a[j][k];
-      }
-    }
-    const double root = std::sqrt(std::max(a[j][j], 1e-300));
-    for (std::size_t i = j; i < kParameters; ++i) {
-      a[i][j] /= root;
-    }
-  }
-  for (std::size_t i = 0; i < kParameters; ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      b[i] -= a[i][k] * b[k];
-    }
-    b[i] /= a[i][i];
-  }
-  for (std::size_t i = kParameters; i-- > 0;) {
-    for (std::size_t k = i + 1; k < kParameters; ++k) {
-      b[i] -= a[k][i] * b[k];
-    }
-    b[i] /= a[i][i];
-  }
-  return b;
-}
-
 /// Means of the parameters by least squares, and the variance of the noise that they leave.
 void fit_means(const std::vector<ChannelSeries>& all, const PerParameter& known,
                ChannelBaseline& baseline) {
-  Matrix normal{};
+  SquareMatrix<kParameters> normal{};
   PerParameter right{};
   double square = 0.0;
   double count = 0.0;
@@ -124,7 +95,8 @@ void fit_means(const std::vector<ChannelSeries>& all, const PerParameter& known,
   for (std::size_t i = 0; i < kParameters; ++i) {
     normal[i][i] += variance / (known[i] * known[i]);
   }
-  baseline.mean = solve(normal, right);
+  // What is known before makes it positive definite.
+  baseline.mean = solve_in_place(normal, right, kParameters) ? right : PerParameter{};
   double left = 0.0;
   for_white(all, baseline, [&](const SignalRow& white, std::size_t, std::size_t) {
     double e = white.residual;

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/row_algebra.hpp"
 #include "core/vec.hpp"
 #include "path/corner/half_corner.hpp"
-#include "path/corner/row_algebra.hpp"
 
 namespace twin::path {
 

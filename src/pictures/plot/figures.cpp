@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "core/atomic_file.hpp"
 #include "core/json.hpp"
@@ -38,25 +36,25 @@ struct RunOrigin {
   std::string settings;       ///< in one line; empty when nothing is known
 };
 
-/// "certified planner, at most 2450 mm/s² and 50000 mm/s³, within 10 µm, kp 298.6 and 111.2 /s".
-std::string settings_line(const Json& summary) {
-  const auto number = [&summary](const char* place) {
-    const auto value = summary.value(Json::json_pointer(place), Json());
-    return value.is_number() ? value.get<double>() : NAN;
-  };
-  const double acceleration = number("/settings/limits/acceleration_mm_per_s2");
-  const double jerk = number("/settings/limits/jerk_mm_per_s3");
-  const double chord = number("/settings/planning/chord_error_mm");
-  const auto planner = summary.value("planner", Json());
-  if (!planner.is_string() || std::isnan(acceleration + jerk + chord)) {
+/// A number of a summary; NaN where it has none there.
+double number_at(const Json& summary, const char* place) {
+  const auto value = summary.value(Json::json_pointer(place), Json());
+  return value.is_number() ? value.get<double>() : NAN;
+}
+
+/// "certified planner, at most 2450 mm/s² and 50·10³ mm/s³, within 10 µm, kp 298.6 and 111.2 /s".
+std::string settings_line(const Json& summary, const RunOrigin& origin) {
+  const double chord = number_at(summary, "/settings/planning/chord_error_mm");
+  const std::string* const planner = text_in(summary, "planner");
+  if (planner == nullptr || origin.acceleration <= 0.0 || origin.jerk <= 0.0 || std::isnan(chord)) {
     return {};
   }
-  std::string line = fmt::format(
-      "{} planner, at most {:g} mm/s² and {:g}·10³ mm/s³, within {:g} µm",
-      planner.get<std::string>(), acceleration, jerk / 1000.0, units::um_from_mm(chord));
+  std::string line =
+      fmt::format("{} planner, at most {:g} mm/s² and {:g}·10³ mm/s³, within {:g} µm", *planner,
+                  origin.acceleration, origin.jerk / 1000.0, units::um_from_mm(chord));
   // A plan has no servo.
-  const double kp_x = number("/settings/servo.x/kp_per_s");
-  const double kp_y = number("/settings/servo.y/kp_per_s");
+  const double kp_x = number_at(summary, "/settings/servo.x/kp_per_s");
+  const double kp_y = number_at(summary, "/settings/servo.y/kp_per_s");
   if (summary.contains("machining_time_s") && !std::isnan(kp_x + kp_y)) {
     line += fmt::format(", kp {:.4g} and {:.4g} /s", kp_x, kp_y);
   }
@@ -65,9 +63,8 @@ std::string settings_line(const Json& summary) {
 
 /// Reads it from a summary; a file that is missing or is none says nothing.
 RunOrigin read_run_origin(const fs::path& summary) {
-  std::ifstream in(summary);
-  const Json json =
-      parse_json(std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()));
+  const auto text = read_whole_file(summary);
+  const Json json = parse_json(text ? *text : std::string());
   RunOrigin origin;
   if (!json.is_object()) {
     return origin;
@@ -75,20 +72,14 @@ RunOrigin read_run_origin(const fs::path& summary) {
   const auto simulated = json.find("simulated");
   origin.is_simulated = simulated != json.end() && simulated->is_boolean() &&
                         simulated->get<bool>() && json.contains("machining_time_s");
-  const auto period = json.find("period_s");
-  if (period != json.end() && period->is_number()) {
-    origin.period = period->get<double>();
-  }
-  const auto limit = [&json](const char* key) {
-    const Json none;
-    const auto value = json.value(Json::json_pointer("/settings/limits"), none);
-    return value.is_object() && value.contains(key) && value[key].is_number()
-               ? value[key].get<double>()
-               : 0.0;
+  origin.period = number_in(json, "period_s").value_or(0.0);
+  const auto limit = [&json](const char* place) {
+    const double value = number_at(json, place);
+    return std::isnan(value) ? 0.0 : value;
   };
-  origin.acceleration = limit("acceleration_mm_per_s2");
-  origin.jerk = limit("jerk_mm_per_s3");
-  origin.settings = settings_line(json);
+  origin.acceleration = limit("/settings/limits/acceleration_mm_per_s2");
+  origin.jerk = limit("/settings/limits/jerk_mm_per_s3");
+  origin.settings = settings_line(json, origin);
   return origin;
 }
 

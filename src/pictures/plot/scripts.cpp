@@ -276,12 +276,6 @@ Script contour_script(const Heading& heading, const DataSummary& data, bool plan
 
 }  // namespace
 
-Script page(const std::string& name, const std::string& settings, const std::string& drawing) {
-  return script(name, settings, drawing);
-}
-
-std::string title_line(const std::string& title) { return set_title({title, {}}); }
-
 std::string quoted(const std::string& text) {
   std::string result = "'";
   char before = '\0';
@@ -339,13 +333,14 @@ Script timing_script(const Heading& heading, double period) {
         "set label 2 'period' at first {1:g}, graph 0.97 right offset -0.5, 0\n",
         period * 2e6, period * 1e6);
   }
-  return page("timing", settings,
-              "  plot 'timing.csv' using 'time_us':(count('wake_up')) with linespoints linestyle 1 "
-              "pointtype 7 pointsize 0.5 title 'wake-up', \\\n"
-              "    '' using 'time_us':(count('compute')) with linespoints linestyle 3 pointtype 7 "
-              "pointsize 0.5 title 'computation', \\\n"
-              "    '' using 'time_us':(count('total')) with linespoints linestyle 2 pointtype 7 "
-              "pointsize 0.5 title 'deadline to output'\n");
+  return script(
+      "timing", settings,
+      "  plot 'timing.csv' using 'time_us':(count('wake_up')) with linespoints linestyle 1 "
+      "pointtype 7 pointsize 0.5 title 'wake-up', \\\n"
+      "    '' using 'time_us':(count('compute')) with linespoints linestyle 3 pointtype 7 "
+      "pointsize 0.5 title 'computation', \\\n"
+      "    '' using 'time_us':(count('total')) with linespoints linestyle 2 pointtype 7 "
+      "pointsize 0.5 title 'deadline to output'\n");
 }
 
 }  // namespace twin::pictures

@@ -19,18 +19,6 @@ struct Heading {
   std::string settings;  ///< of the run, in one line; may be empty
 };
 
-/// A whole script: the page that all figures share, then what the figure adds.
-/// With the variable paper of gnuplot it makes NAME.pdf, one column of a paper wide, without a
-/// title.
-///
-/// @param name      of the figure; it makes NAME.png and NAME.svg
-/// @param settings  lines before the terminals are set
-/// @param drawing   lines that draw, once for each format
-Script page(const std::string& name, const std::string& settings, const std::string& drawing);
-
-/// The line that sets the title; any text.
-std::string title_line(const std::string& title);
-
 /// Any text as a gnuplot string expression.
 std::string quoted(const std::string& text);
 

@@ -14,6 +14,7 @@
 #include "runtime/override_schedule.hpp"
 #include "studies/identify/recording_columns.hpp"
 #include "tests/fuzz/target.hpp"
+#include "tests/fuzz/temporary_folder.hpp"
 
 namespace twin::fuzz {
 namespace operator_target {
@@ -22,22 +23,15 @@ namespace operator_target {
 class Station {
  public:
   Station() {
-    char name[] = "/tmp/twin_fuzz_XXXXXX";
-    promise(::mkdtemp(name) != nullptr, "no folder for a socket");
-    folder_ = name;
     auto opened = operator_station::ControlSocket::open(
-        folder_ / "control",
+        folder_.path() / "control",
         [this](std::string_view line) { return operator_station::answer(line, panel_); });
     promise(opened.has_value(), "no control socket");
     socket_ = std::move(*opened);
   }
   Station(const Station&) = delete;
   Station& operator=(const Station&) = delete;
-  ~Station() {
-    socket_.reset();
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  ~Station() { socket_.reset(); }
 
   runtime::OperatorPanel& panel() { return panel_; }
 
@@ -46,7 +40,7 @@ class Station {
     const int client = ::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    (folder_ / "control").string().copy(address.sun_path, sizeof address.sun_path - 1);
+    (folder_.path() / "control").string().copy(address.sun_path, sizeof address.sun_path - 1);
     promise(::connect(client, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0,
             "the control socket takes no client");
     serve();
@@ -90,7 +84,7 @@ class Station {
     }
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   runtime::OperatorPanel panel_;
   std::unique_ptr<operator_station::ControlSocket> socket_;
 };

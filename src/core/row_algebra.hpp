@@ -7,7 +7,7 @@
 
 /// Linear algebra of a few rows of numbers, as plain loops: Eigen's decompositions of matrices of
 /// fixed size take ten times as long to compile.
-namespace twin::path {
+namespace twin {
 
 template <std::size_t n>
 using SquareMatrix = std::array<std::array<double, n>, n>;
@@ -75,4 +75,4 @@ bool solve_in_place(SquareMatrix<n>& a, std::array<double, n>& b, std::size_t co
   return true;
 }
 
-}  // namespace twin::path
+}  // namespace twin
