@@ -154,9 +154,7 @@ Expected<Shot> Film::shoot(double t) {
   Shot shot{Image(width_, height_),
             {shown_, view_.follows ? Image() : inset_.canvas().image(),
              inset_.place(shown_.position.head<2>())}};
-  Image scene(width_, height_ - strip_height(height_));
-  scene_.render(scene);
-  shot.frame.paste(scene, 0, 0);
+  scene_.render(shot.frame);
   return shot;
 }
 

@@ -19,8 +19,11 @@ Image::Image(int width, int height, Colour fill)
     : width_(width),
       height_(height),
       pixels_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    pixels_[i] = fill[i % 3];
+  if (fill == Colour{}) {
+    return;
+  }
+  for (std::size_t i = 0; i < pixels_.size(); i += fill.size()) {
+    std::copy(fill.begin(), fill.end(), pixels_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 

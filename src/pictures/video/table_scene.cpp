@@ -65,6 +65,12 @@ void make_pen_transparent(mjModel& model) {
   }
 }
 
+/// What lies high is drawn first: every camera looks down, so that what it hides is not shaded.
+void draw_upper_first(mjvScene& scene) {
+  std::stable_sort(scene.geoms, scene.geoms + scene.ngeom,
+                   [](const mjvGeom& a, const mjvGeom& b) { return a.pos[2] > b.pos[2]; });
+}
+
 }  // namespace
 
 struct TableScene::Parts {
@@ -186,6 +192,7 @@ void TableScene::set_drawing(const Image& drawing, const Rectangle& changed) {
 void TableScene::render(Image& frame) {
   Parts& p = *parts_;
   mjv_updateScene(p.model.get(), p.data.get(), &p.option, nullptr, &p.camera, mjCAT_ALL, &p.scene);
+  draw_upper_first(p.scene);
   mjr_render(p.viewport, &p.scene, &p.renderer);
   p.read(p.viewport, frame);
 }
