@@ -118,6 +118,7 @@ def hosts():
             ip("netns", "del", name, check=False)
 
 
+@pytest.mark.slow
 def test_sweep_on_two_hosts_survives_the_death_of_one(hosts, tmp_path):
     count = 40
     file = make_sweep(tmp_path, count)

@@ -18,7 +18,11 @@ EXPECTED = {
 }
 
 
-@pytest.mark.parametrize("name", [file.stem for file in sorted(FOLDER.glob("*.py"))])
+SLOW = {"06_identify"}
+NAMES = [file.stem for file in sorted(FOLDER.glob("*.py"))]
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in NAMES])
 def test_example(name):
     file = FOLDER / f"{name}.py"
     assert len(file.read_text().splitlines()) < 40

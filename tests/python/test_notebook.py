@@ -14,6 +14,7 @@ def test_notebook_is_kept_without_results():
     assert all(not cell.get("outputs") for cell in cells)
 
 
+@pytest.mark.slow
 def test_notebook_runs(tmp_path):
     nbformat = pytest.importorskip("nbformat", reason="jupyter-nbconvert is not installed")
     preprocessors = pytest.importorskip(

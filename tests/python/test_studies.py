@@ -27,6 +27,7 @@ def test_compare_runs_every_program_on_every_machine():
     assert soft > stiff and all(row["failure"] is None for row in rows)
 
 
+@pytest.mark.slow
 def test_identify_predicts_a_recording_that_was_not_fitted(tmp_path):
     text = "G21 G90\nG1 X{0} F3000\nX0\nX{0} F600\nX0\nM30\n"
     for way in (12, 9):
