@@ -122,7 +122,7 @@ def test_killed_run_leaves_what_was_flushed(tmp_path):
     run.wait()
     with h5py.File(file) as left:
         rows = min(len(left[name]) for name in left)
-        assert rows >= 4096 and rows % 4096 == 0
+        assert rows >= 8192 and rows % 8192 == 0
         assert np.allclose(np.diff(left["t_s"][:rows]), 0.001)
     assert twin.read_trace(file).rows == rows
 

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <new>
+
+#include "results/hdf5/deflate_stream.hpp"
 
 namespace twin::results::hdf5 {
 namespace {
@@ -19,8 +20,9 @@ constexpr std::size_t kBytes = sizeof(std::uint64_t);
 /// fifths of the time.
 constexpr double kNoise = 7.3;
 
-/// Longest stored block of deflate [bytes].
-constexpr std::size_t kLongestStored = 65535;
+/// Entropy up to which a byte plane in front of noise is worth a code of its own [bits a byte]: above,
+/// matches may make it much smaller.
+constexpr double kFew = 4.5;
 
 /// Transposes the matrix whose rows are the bytes of eight words, low byte first: blocks of four by
 /// four bytes are swapped across the diagonal, in each of them those of two by two, then bytes.
@@ -39,14 +41,16 @@ void transpose(std::array<std::uint64_t, kBytes>& words) {
   swap_blocks(1, 0x00FF00FF00FF00FFU);
 }
 
+/// Entropy of a quarter of the bytes, four in a row of every sixteen [bits a byte].
 double entropy(std::span<const std::uint8_t> bytes) {
   std::array<std::array<std::uint32_t, 256>, 4> counts{};  // four, so that equal bytes do not wait
-  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 16, seen += 4) {
     for (std::size_t k = 0; k < 4; ++k) {
       ++counts[k][bytes[i + k]];
     }
   }
-  const auto all = static_cast<float>(bytes.size());
+  const auto all = static_cast<float>(std::max<std::size_t>(seen, 1));
   float bits = 0.0F;
   for (std::size_t i = 0; i < 256; ++i) {
     const auto count =
@@ -56,6 +60,19 @@ double entropy(std::span<const std::uint8_t> bytes) {
     }
   }
   return static_cast<double>(bits / all);
+}
+
+/// How many planes from the lowest on need no compressor: noise, and planes of few values before it.
+std::size_t planes_without_matches(const std::array<double, kBytes>& entropies) {
+  std::size_t end = 0;
+  for (std::size_t plane = 0; plane + 1 < kBytes; ++plane) {
+    if (entropies[plane] > kNoise) {
+      end = plane + 1;
+    } else if (entropies[plane] > kFew) {
+      break;
+    }
+  }
+  return end;
 }
 
 }  // namespace
@@ -89,27 +106,28 @@ void ColumnPacker::shuffle(std::span<const std::uint64_t> values) {
   }
 }
 
-/// Appends a block of deflate that is stored: not the last one, its length, its complement.
-void ColumnPacker::put_stored(std::span<const std::uint8_t> plane) {
-  assert(plane.size() <= kLongestStored);
-  const auto size = static_cast<unsigned>(plane.size());
-  for (const unsigned byte : {0U, size & 255U, size >> 8U, ~size & 255U, (~size >> 8U) & 255U}) {
-    packed_.push_back(static_cast<std::uint8_t>(byte));
-  }
-  packed_.insert(packed_.end(), plane.begin(), plane.end());
-}
-
-std::span<const std::uint8_t> ColumnPacker::pack(std::span<const std::uint64_t> values) {
+std::span<const std::uint8_t> ColumnPacker::pack(std::span<const std::uint64_t> values,
+                                                 bool is_full) {
   const std::size_t count = values.size();
   shuffle(values);
   const std::span<const std::uint8_t> bytes(shuffled_);
   packed_.assign({0x78, 0x01});  // the head of zlib: deflate with a window of 32 kB, fastest
-  std::size_t plane = 0;
-  while (plane + 1 < kBytes && entropy(bytes.subspan(plane * count, count)) > kNoise) {
-    put_stored(bytes.subspan(plane * count, count));
-    ++plane;
+  std::array<double, kBytes> entropies{};
+  for (std::size_t plane = 0; plane < kBytes; ++plane) {
+    entropies[plane] = entropy(bytes.subspan(plane * count, count));
   }
-  const auto rest = bytes.subspan(plane * count);
+  const std::size_t planes = is_full ? planes_without_matches(entropies) : 0;
+  DeflateStream stream(packed_);
+  for (std::size_t plane = 0; plane < planes; ++plane) {
+    const auto part = bytes.subspan(plane * count, count);
+    if (entropies[plane] > kNoise) {
+      stream.put_stored(part);
+    } else {
+      stream.put_coded(part);
+    }
+  }
+  stream.align();
+  const auto rest = bytes.subspan(planes * count);
   const std::size_t head = packed_.size();
   packed_.resize(head + libdeflate_deflate_compress_bound(compressor_.get(), rest.size()) + 4);
   const std::size_t size = libdeflate_deflate_compress(

@@ -189,10 +189,11 @@ Expected<void> FileWriter::write_chunk() {
   written_ += columns_.front().waiting.size();
   const hsize_t rows = written_;
   for (Column& column : columns_) {
+    const bool is_full = column.waiting.size() == kHdf5ChunkRows;
     column.waiting.resize(kHdf5ChunkRows, column.is_whole
                                               ? std::bit_cast<std::uint64_t>(kNoWhole)
                                               : std::bit_cast<std::uint64_t>(kNoNumber));
-    const auto packed = packer_.pack(column.waiting);
+    const auto packed = packer_.pack(column.waiting, is_full);
     column.waiting.clear();
     if (H5Dset_extent(column.dataset.id(), &rows) < 0 ||
         H5Dwrite_chunk(column.dataset.id(), H5P_DEFAULT, 0, &offset, packed.size(), packed.data()) <

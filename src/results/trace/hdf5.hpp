@@ -16,7 +16,7 @@
 namespace twin::results {
 
 /// Rows between two flushes of an HDF5 file, which is the length of its chunks.
-inline constexpr std::size_t kHdf5ChunkRows = 4096;
+inline constexpr std::size_t kHdf5ChunkRows = 8192;
 
 /// Writes rows of numbers into an HDF5 file: one dataset a column, at the root, with the attributes
 /// `units` and `long_name`; shuffled and deflated in chunks of kHdf5ChunkRows rows.

@@ -1,0 +1,78 @@
+#include "results/hdf5/deflate_stream.hpp"
+
+#include <array>
+#include <cassert>
+
+#include "results/hdf5/huffman_code.hpp"
+
+namespace twin::results::hdf5 {
+namespace {
+
+constexpr std::size_t kLongestStored = 65535;
+constexpr unsigned kStored = 0;  // kinds of blocks
+constexpr unsigned kOwnCode = 2;
+constexpr std::array<unsigned, 19> kOrderOfLengths{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};
+
+}  // namespace
+
+void DeflateStream::put(std::uint64_t bits, unsigned count) {
+  waiting_ |= bits << count_;
+  count_ += count;
+  while (count_ >= 8) {
+    packed_.push_back(static_cast<std::uint8_t>(waiting_));
+    waiting_ >>= 8U;
+    count_ -= 8;
+  }
+}
+
+void DeflateStream::put_stored(std::span<const std::uint8_t> bytes) {
+  assert(bytes.size() <= kLongestStored);
+  put(kStored << 1U, 3);
+  put(0, (8 - count_) % 8);
+  const std::uint64_t size = bytes.size();
+  put(size | (size ^ kLongestStored) << 16U, 32);
+  packed_.insert(packed_.end(), bytes.begin(), bytes.end());
+}
+
+void DeflateStream::align() {
+  if (count_ > 0) {
+    put_stored({});
+  }
+}
+
+/// The lengths of a code, each by four bits, and one code of distances that is not there.
+void DeflateStream::put_header(std::span<const std::uint8_t> lengths) {
+  put(kOwnCode << 1U, 3);
+  put(lengths.size() - 257, 5);
+  put(0, 5);
+  put(kOrderOfLengths.size() - 4, 4);
+  for (const unsigned symbol : kOrderOfLengths) {
+    put(symbol <= kLongestCode ? 4 : 0, 3);
+  }
+  const auto put_length = [this](unsigned length) {
+    const unsigned reversed = ((length & 1U) << 3U) | ((length & 2U) << 1U) |
+                              ((length & 4U) >> 1U) | ((length & 8U) >> 3U);
+    put(reversed, 4);
+  };
+  for (const std::uint8_t length : lengths) {
+    put_length(length);
+  }
+  put_length(0);
+}
+
+void DeflateStream::put_coded(std::span<const std::uint8_t> bytes) {
+  SymbolCounts counts{};
+  for (const std::uint8_t byte : bytes) {
+    ++counts[byte];
+  }
+  counts.back() = 1;
+  const HuffmanCode code = make_huffman_code(counts);
+  put_header(code.lengths);
+  for (const std::uint8_t byte : bytes) {
+    put(code.bits[byte], code.lengths[byte]);
+  }
+  put(code.bits.back(), code.lengths.back());
+}
+
+}  // namespace twin::results::hdf5
