@@ -79,8 +79,11 @@ std::string trajectory(const config::MachineFile& machine) {
       std::min(machine.limits.rapid_feedrate, machine.limits.feedrate), acceleration);
 }
 
-std::string homing(const config::MachineFile& machine, std::size_t axis, bool is_homed_here) {
-  if (!is_servo(axis) || is_homed_here) {
+/// Onto the switch and, where the HAL files connect it, the encoder's index: those that LinuxCNC ships
+/// for Servo To Go do not.
+std::string homing(const config::MachineFile& machine, std::size_t axis,
+                   const ConfigOptions& options) {
+  if (!is_servo(axis) || options.is_homed_here) {
     return "HOME = 0\nHOME_OFFSET = 0\nHOME_SEARCH_VEL = 0\nHOME_LATCH_VEL = 0\nHOME_SEQUENCE = "
            "0\n";
   }
@@ -88,8 +91,9 @@ std::string homing(const config::MachineFile& machine, std::size_t axis, bool is
   const double towards = home.is_positive ? 1.0 : -1.0;
   return fmt::format(
       "HOME = 0\nHOME_OFFSET = {:g}\nHOME_SEARCH_VEL = {:g}\nHOME_LATCH_VEL = {:g}\n"
-      "HOME_FINAL_VEL = {:g}\nHOME_USE_INDEX = YES\nHOME_IGNORE_LIMITS = YES\nHOME_SEQUENCE = 0\n",
-      -home.zero, towards * home.seek_feedrate, -towards * home.index_feedrate, home.seek_feedrate);
+      "HOME_FINAL_VEL = {:g}\nHOME_USE_INDEX = {}\nHOME_IGNORE_LIMITS = YES\nHOME_SEQUENCE = 0\n",
+      -home.zero, towards * home.seek_feedrate, -towards * home.index_feedrate, home.seek_feedrate,
+      options.profile == ConfigOptions::Profile::kStg ? "NO" : "YES");
 }
 
 /// Keys of the position loop: those of core_servo.hal, so that either HAL file finds them.
@@ -126,7 +130,8 @@ std::array<double, 2> following_errors(const config::MachineFile& machine, std::
           safety.tracking_error + safety.tracking_error_per_feedrate * velocity};
 }
 
-std::string joint(const config::MachineFile& machine, std::size_t axis, bool is_homed_here) {
+std::string joint(const config::MachineFile& machine, std::size_t axis,
+                  const ConfigOptions& options) {
   const auto k = static_cast<Eigen::Index>(axis);
   const std::string limits = fmt::format(
       "MIN_LIMIT = {:g}\nMAX_LIMIT = {:g}\nMAX_VELOCITY = {:g}\nMAX_ACCELERATION = {:g}\n",
@@ -137,7 +142,7 @@ std::string joint(const config::MachineFile& machine, std::size_t axis, bool is_
       "[AXIS_{}]\n{}\n[JOINT_{}]\nTYPE = LINEAR\n{}BACKLASH = 0\nMIN_FERROR = {:g}\nFERROR = {:g}\n"
       "{}{}\n",
       kLetters[axis], limits, axis, limits, at_rest, at_speed, loop(machine, axis),
-      homing(machine, axis, is_homed_here));
+      homing(machine, axis, options));
 }
 
 std::string servo_nets(char letter, std::size_t joint_number) {
@@ -172,7 +177,7 @@ std::string servo_nets(char letter, std::size_t joint_number) {
 std::string ini_text(const config::MachineFile& machine, const ConfigOptions& options) {
   std::string text = head(machine, options) + trajectory(machine);
   for (std::size_t axis = 0; axis < kLetters.size(); ++axis) {
-    text += joint(machine, axis, options.is_homed_here);
+    text += joint(machine, axis, options);
   }
   return text;
 }

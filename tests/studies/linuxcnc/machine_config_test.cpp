@@ -58,6 +58,13 @@ TEST(LinuxCncConfig, HomesOnTheSwitchOfTheMachineFile) {
   EXPECT_EQ(value_of(ini_text(machine(), here), "JOINT_0", "HOME_SEARCH_VEL"), "0");
 }
 
+TEST(LinuxCncConfig, LooksForAnIndexOnlyWhereTheHalFilesConnectIt) {
+  ConfigOptions options;
+  EXPECT_EQ(value_of(ini_text(machine(), options), "JOINT_0", "HOME_USE_INDEX"), "YES");
+  options.profile = ConfigOptions::Profile::kStg;
+  EXPECT_EQ(value_of(ini_text(machine(), options), "JOINT_0", "HOME_USE_INDEX"), "NO");
+}
+
 TEST(LinuxCncConfig, LimitsOfAnAxisGoBeforeThoseOfTheMachine) {
   const std::string ini = ini_text(
       machine({"limits.axis_acceleration_mm_per_s2=[1000,0,0]",
