@@ -359,7 +359,7 @@ void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) co
   const LimitZone& zone = zones[first];
   if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
       !is_passage(before) && !is_passage(zone) && before.limit == zone.limit &&
-      before.acceleration == zone.acceleration && before.jerk == zone.jerk) {
+      has_same_ramp(before, zone)) {
     before.end = zone.end;
     zones.erase(zones.begin() + static_cast<std::ptrdiff_t>(first));
   }
