@@ -59,7 +59,8 @@ class CertifiedLimits final : public LimitSource {
   double any_turn_feedrate() const noexcept;
   double most_turn(const BendInterval& interval) const noexcept;
   double limit_at(const BendInterval& interval, double feedrate, On what) const;
-  double dip_limit(const BendPeak& peak, double limit, double feedrate, const Vec3& tangent) const;
+  double dip_limit(const BendPeak& peak, const LimitZone& bend, double feedrate,
+                   const Vec3& tangent) const;
   void keep_derivatives(const ByArcLength& begin, const ByArcLength& middle, const ByArcLength& end,
                         BendKind bend, LimitZone& zone) const;
   void keep_axes(const path::FittedCurve& curve, const BendInterval& interval,
