@@ -44,6 +44,7 @@ class CertifiedLimits final : public LimitSource {
   /// Merges zones[first] with the zone before it if both have the same limits.
   void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
   RampLimits least_ramp() const override;
+  bool divides_jerk() const override { return has_axis_limits_; }
 
   /// The zone of a part of a bump at a corner.
   /// @param piece    of the path, by the length of the base path
