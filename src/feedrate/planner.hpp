@@ -56,6 +56,10 @@ class LimitSource {
 
   /// Tangential acceleration and jerk that are allowed in every zone.
   virtual RampLimits least_ramp() const = 0;
+
+  /// Whether zones allow less jerk and acceleration the higher their limit is, so that a limit that no
+  /// motion can reach is better lowered.
+  virtual bool divides_jerk() const { return false; }
 };
 
 /// Plans the feedrate over a window and decides which part of it is final.

@@ -1,6 +1,8 @@
 #include "feedrate/window_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "feedrate/profile/ramps.hpp"
@@ -11,6 +13,21 @@ namespace {
 /// Halvings of a range of feedrates: as many as its digits.
 constexpr int kDescentHalvings = 50;
 
+/// Over what a motion can reach. It is what rounding needs.
+constexpr double kOverReach = 1.001;
+
+/// Feedrate that no motion from rest exceeds after a distance: J up to A, and A from there on.
+///   s = J t^3 / 6,  v = J t^2 / 2,  then  v^2 = v_A^2 + 2 A (s - s_A)   with  t_A = A / J
+double reach_from_rest(double distance, const RampLimits& ramp) {
+  const double build_up = ramp.acceleration / ramp.jerk;
+  const double way = ramp.jerk * build_up * build_up * build_up / 6.0;
+  if (distance <= way) {
+    return 0.5 * std::cbrt(36.0 * ramp.jerk * distance * distance);
+  }
+  const double v = 0.5 * ramp.acceleration * build_up;
+  return std::sqrt(v * v + 2.0 * ramp.acceleration * (distance - way));
+}
+
 }  // namespace
 
 WindowLimits::WindowLimits(const Limits& limits, const PlanningModel& model, double period,
@@ -20,7 +37,23 @@ WindowLimits::WindowLimits(const Limits& limits, const PlanningModel& model, dou
       source_(std::move(source)),
       junctions_(limits, model, period),
       start_(start),
+      latest_rest_(start),
+      ramp_{limits.acceleration, limits.jerk, model.acceleration_profile},
       override_scale_(override_scale) {}
+
+/// Feedrate that no motion exceeds on a segment: from the latest rest or the start on, which adds its
+/// feedrate, and down to a rest at the segment's end [mm/s].
+double WindowLimits::reach(const path::Segment& segment, double begin) const {
+  const double end = begin + segment.length;
+  if (begin < latest_rest_.s) {  // not passed, or not from its begin
+    return std::numeric_limits<double>::infinity();
+  }
+  double reach = latest_rest_.v + reach_from_rest(end - latest_rest_.s, ramp_);
+  if (segment.stops_at_end) {
+    reach = std::min(reach, reach_from_rest(segment.length, ramp_));
+  }
+  return kOverReach * reach;
+}
 
 double WindowLimits::asked_feedrate(const path::Segment& segment) const {
   if (override_scale_ == 1.0) {
@@ -34,8 +67,15 @@ void WindowLimits::append(const path::Segment& segment, Window& window) {
   if (!window.segments.empty()) {
     junctions_.append(window.segments.back(), segment, window.length, window.zones);
   }
-  const double asked = asked_feedrate(segment);
+  double asked = asked_feedrate(segment);
   window.fastest = std::max(window.fastest, asked);
+  if (source_->divides_jerk() && segment.length > 0.0 &&
+      !std::holds_alternative<path::CornerMotion>(segment.geometry)) {
+    asked = std::min(asked, std::max(reach(segment, window.length), start_.v));
+  }
+  if (segment.stops_at_end || segment.length == 0.0) {
+    latest_rest_ = {std::max(window.length + segment.length, start_.s), 0.0};
+  }
   const double down =
       asked < start_.v
           ? start_.s + ramp_distance(start_.v, asked, source_->least_ramp()) - window.length
@@ -94,6 +134,7 @@ void WindowLimits::append_descent(const path::Segment& segment, double asked, do
 void WindowLimits::forget(double distance, std::size_t zones) {
   junctions_.forget(distance, zones);
   start_.s -= distance;
+  latest_rest_.s -= distance;
 }
 
 }  // namespace twin::feedrate

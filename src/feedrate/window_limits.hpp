@@ -36,6 +36,7 @@ class WindowLimits {
 
  private:
   double asked_feedrate(const path::Segment& segment) const;
+  double reach(const path::Segment& segment, double begin) const;
   void append_passage(const path::Segment& segment, double asked, Window& window);
   void append_descent(const path::Segment& segment, double asked, double down, Window& window);
 
@@ -43,6 +44,8 @@ class WindowLimits {
   std::unique_ptr<LimitSource> source_;
   JunctionLimits junctions_;
   PlanStart start_;
+  PlanStart latest_rest_;  // or the start
+  RampLimits ramp_;        // of the machine
   double override_scale_;
   std::vector<LimitZone> asked_zones_;  // of one segment, kept for its memory
 };

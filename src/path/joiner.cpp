@@ -42,6 +42,10 @@ constexpr double kMergedLine = 1.0;
 constexpr double kBumpShare = 0.8;
 constexpr double kBumpShareAlong = 0.34;
 
+/// The same of what is left of it there to the motion along the path.
+constexpr double kLeftShare = 0.05;
+constexpr double kLeftShareAlong = 0.4;
+
 constexpr double kNothing = 1e-9;       // a length that is none [mm]
 constexpr double kShortestBody = 1e-4;  // between two bumps, unless there is none at all [mm]
 
@@ -249,8 +253,12 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
                              const PathPoint& begin) const {
   const Vec3 along = 0.5 * (end.tangent + begin.tangent).cwiseAbs();
   double v = std::numeric_limits<double>::infinity();
+  double left = v;
   for (int i = 0; i < 3; ++i) {
     const double turn = std::abs(bump.turn[i]);
+    if (limits_.axis_jerk[i] > 0.0 && along[i] > kNoJump) {
+      left = std::min(left, (kLeftShare / along[i] + kLeftShareAlong) * limits_.axis_jerk[i]);
+    }
     if (limits_.axis_jerk[i] > 0.0 && turn > kNoJump) {
       const double share = kBumpShare - kBumpShareAlong * along[i];
       v = std::min(v, std::cbrt(share * limits_.axis_jerk[i] * width * width / turn));
@@ -259,6 +267,7 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
   if (limits_.jerk_of == JerkOf::kVector && bump.turn.norm() > kNoJump) {
     const double jerk = (kBumpShare - kBumpShareAlong) * limits_.jerk;
     v = std::min(v, std::cbrt(jerk * width * width / bump.turn.norm()));
+    left = std::min(left, (kLeftShare + kLeftShareAlong) * limits_.jerk);
   }
   if (!std::isfinite(v)) {
     return false;
@@ -274,7 +283,7 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
     }
     const double room = 0.5 * (element.end - element.begin);
     const double feedrate = feedrate_within(room, element.feedrate, jerk);
-    lost_in_bump += best_passage(width, v, feedrate, jerk).loss;
+    lost_in_bump += best_passage({width, v, std::min(left, jerk)}, feedrate, jerk).loss;
     lost_by_stop += stop_loss(feedrate, jerk);
   };
   add_side(before_, end.tangent);

@@ -14,19 +14,24 @@ namespace twin::path {
 ///
 /// The feedrate rises from r V with a constant jerk over the bump, which takes
 ///   T = 3 h / (V (1 + 2 r)),   with the acceleration a = 2 V (1 - r) / T at its end,
-/// and from there with the jerk J until a = 0 at F. A lower r costs time in the bump and saves time
-/// after it.
+/// and from there with the jerk J until a = 0 at F. Where that takes more jerk than the bend leaves,
+/// the feedrate rises with what is left, to less than V. A lower r costs time in the bump and saves
+/// time after it.
+struct Bump {
+  double half_width;  ///< h > 0 [mm]
+  double feedrate;    ///< V > 0 [mm/s]
+  double jerk;        ///< left to the motion along the path in the bend, > 0 [mm/s^3]
+};
+
 struct Passage {
   double dip = 1.0;   ///< r of the least loss [-]
   double loss = 0.0;  ///< time beside that of running at F [s]
 };
 
 /// The passage of the least loss.
-/// @param half_width  h > 0 [mm]
-/// @param bump        V > 0 [mm/s]
-/// @param feedrate    F > 0 [mm/s]
-/// @param jerk        J > 0 [mm/s^3]
-Passage best_passage(double half_width, double bump, double feedrate, double jerk) noexcept;
+/// @param feedrate  F > 0 [mm/s]
+/// @param jerk      J > 0 [mm/s^3]
+Passage best_passage(const Bump& bump, double feedrate, double jerk) noexcept;
 
 /// Time that is lost with a stop at the corner itself, on one side of it [s].
 double stop_loss(double feedrate, double jerk) noexcept;

@@ -47,13 +47,22 @@ void SegmentWriter::advance_to(double s) {
   }
 }
 
+/// Whether the demands change from the current block to the one that goes on beyond s.
+bool SegmentWriter::changes_demands(double s) const {
+  bool changes = false;
+  for (std::size_t i = at_; i + 1 < blocks_.end_index() && blocks_[i].end <= s; ++i) {
+    changes = changes || !blocks_[i].has_same_demands(blocks_[i + 1]);
+  }
+  return changes;
+}
+
 void SegmentWriter::cubic(const geometry::SpanCubic& piece, double deviation) {
   geometry::SpanCubic rest = piece;
   const double least = geometry::shortest_part(piece);
   advance_to(rest.begin + least);
   while (at_ + 1 < blocks_.end_index() && blocks_[at_].end < rest.end - least) {
     const double end = blocks_[at_].end;
-    if (!blocks_[at_].has_same_demands(blocks_[at_ + 1])) {
+    if (changes_demands(end + least)) {
       append(geometry::part_of(rest, rest.begin, end), deviation);
       rest = geometry::part_of(rest, end, rest.end);
     }

@@ -75,6 +75,7 @@ class SegmentWriter {
  private:
   void flush();
   void advance_to(double s);
+  bool changes_demands(double s) const;
   void append(const geometry::SpanCubic& piece, double deviation);
   void exact(Segment&& segment, double begin, double end);
   void set_demands(Segment& segment) const;

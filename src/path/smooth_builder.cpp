@@ -63,8 +63,12 @@ BlockDemand SmoothBuilder::demand_of(const gcode::Block& block, double length,
   return demand;
 }
 
-/// Leaves a block out if it or the latest line is a speck: the block ends where the line ends, or
-/// the line goes on to the end of the block.
+bool SmoothBuilder::is_short(const gcode::Block& block, double length) const {
+  return block.motion == gcode::Motion::kLinear && length <= settings_.short_block_length;
+}
+
+/// Leaves a block out if it is a speck: it ends where the latest line ends. If that line is one, it is
+/// left out instead, and the block is the line.
 /// @returns whether the block was left out
 bool SmoothBuilder::merge_into_line(const gcode::Block& block, const BlockDemand& demand) {
   const double speck = std::min(0.5 * kSpeck * run_tolerance(block.tolerance), kLargestSpeck);
@@ -75,15 +79,22 @@ bool SmoothBuilder::merge_into_line(const gcode::Block& block, const BlockDemand
   if (line_.length > speck && away > speck) {
     return false;
   }
-  line_.left_out.push_back(demand);
   line_.last = block.end;
-  if (line_.length <= speck) {  // the line is a speck itself: it goes on
-    line_.demand.deviation = std::max(line_.demand.deviation, line_.length);
-    line_.end = block.end;
-    line_.length = (line_.end - line_.start).norm();
-  } else {
+  if (line_.length > speck) {
+    line_.left_out.push_back(demand);
     line_.left_out.back().deviation = away;
+    return true;
   }
+  // The line is a speck itself: it ends where it begins, and the block begins there.
+  line_.demand.deviation = std::max(line_.demand.deviation, line_.length);
+  line_.before.push_back(line_.demand);
+  line_.before.insert(line_.before.end(), line_.left_out.begin(), line_.left_out.end());
+  line_.left_out.clear();
+  line_.demand = demand;
+  line_.demand.deviation = (block.start - line_.start).norm();
+  line_.end = block.end;
+  line_.length = (line_.end - line_.start).norm();
+  line_.can_be_short = is_short(block, line_.length);
   return true;
 }
 
@@ -99,10 +110,10 @@ void SmoothBuilder::add_line(const gcode::Block& block, std::int64_t number) {
   line_.end = line_.last = block.end;
   line_.length = (line_.end - line_.start).norm();
   line_.tolerance = block.tolerance;
-  line_.can_be_short =
-      block.motion == gcode::Motion::kLinear && line_.length <= settings_.short_block_length;
+  line_.can_be_short = is_short(block, line_.length);
   demand.deviation = (block.start - start).norm();
   line_.demand = demand;
+  line_.before.clear();
   line_.left_out.clear();
   has_line_ = true;
 }
@@ -127,6 +138,10 @@ void SmoothBuilder::emit_line(LineBlock& line) {
     run_.finish();
     joiner_.set_demands(corner_tolerance(line.tolerance), line.demand.feedrate);
     run_.start(line.start, length_, run_tolerance(line.tolerance));
+  }
+  for (BlockDemand& demand : line.before) {
+    demand.end = length_;
+    writer_.add_block(demand);
   }
   length_ += line.length;
   line.demand.end = length_;

@@ -44,7 +44,7 @@ class SmoothBuilder : public Builder {
   void finish() override;
 
  private:
-  /// A line, and the tiny blocks after it that are left out.
+  /// A line, and the tiny blocks before and after it that are left out.
   struct LineBlock {
     Vec3 start = Vec3::Zero();
     Vec3 end = Vec3::Zero();   // end of the line itself [mm]
@@ -53,7 +53,8 @@ class SmoothBuilder : public Builder {
     double tolerance = 0.0;    // of G64 P; 0: that of the machine file [mm]
     bool can_be_short = false;
     BlockDemand demand;
-    std::vector<BlockDemand> left_out;
+    std::vector<BlockDemand> before;    // left out where it begins
+    std::vector<BlockDemand> left_out;  // left out where it ends
   };
 
   /// What follows the latest line.
@@ -65,6 +66,7 @@ class SmoothBuilder : public Builder {
   double run_tolerance(double programmed) const;
   double corner_tolerance(double programmed) const;
   bool continues_run(const LineBlock& block) const;
+  bool is_short(const gcode::Block& block, double length) const;
   BlockDemand demand_of(const gcode::Block& block, double length, std::int64_t number) const;
   void add_line(const gcode::Block& block, std::int64_t number);
   bool merge_into_line(const gcode::Block& block, const BlockDemand& demand);

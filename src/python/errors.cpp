@@ -16,6 +16,8 @@ const char* name_of(ErrorCode code) {
       return "model";
     case ErrorCode::kMachine:
       return "machine";
+    case ErrorCode::kHost:
+      return "host";
     case ErrorCode::kInterrupted:
       return "interrupted";
   }

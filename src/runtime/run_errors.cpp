@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <new>
 #include <string>
+#include <system_error>
 
 #include "config/loop_margins.hpp"
 
@@ -11,15 +13,20 @@ namespace twin::runtime {
 
 Error thrown(const char* where) {
   std::string what = "unknown exception";
+  ErrorCode code = ErrorCode::kMachine;
   try {
     throw;
+  } catch (const std::bad_alloc&) {
+    what = "no memory is left";
+    code = ErrorCode::kHost;
+  } catch (const std::system_error& exception) {
+    what = exception.what();
+    code = ErrorCode::kHost;
   } catch (const std::exception& exception) {
     what = exception.what();
   } catch (...) {
   }
-  return {.code = ErrorCode::kMachine,
-          .message = fmt::format("{} failed: {}", where, what),
-          .file = {}};
+  return {.code = code, .message = fmt::format("{} failed: {}", where, what), .file = {}};
 }
 
 std::optional<Error> describe_end(const MotionResult& motion, const results::Sample& last,

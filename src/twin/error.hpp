@@ -15,6 +15,7 @@ enum class ErrorCode {
   kFile,         ///< a file cannot be read or written: exit status 1
   kModel,        ///< the MuJoCo model is missing, broken or became unstable: exit status 1
   kMachine,      ///< the machine refused or failed: exit status 1
+  kHost,         ///< the computer has no memory or no thread left: exit status 1
   kInterrupted,  ///< the user stopped the run: exit status 130
 };
 

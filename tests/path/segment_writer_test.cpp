@@ -53,6 +53,23 @@ TEST_F(SegmentWriterTest, TheRestOfABlockKeepsItsFeedrateWhereAFasterBlockFollow
   EXPECT_EQ(segments[2].marks[0].block, 1);
 }
 
+// A block with a speck behind it, whose end is the same, and a slow block after both: the piece over
+// all of them was the slow block's from its begin on.
+TEST_F(SegmentWriterTest, APieceIsDividedWhereTheFeedrateChangesBehindABlockOfNoLength) {
+  writer.add_block(block(1.0, 50.0, 0));
+  writer.add_block(block(1.0, 50.0, 1));
+  writer.add_block(block(2.0, 10.0, 2));
+  writer.cubic(straight(0.0, 0.5), 0.0);
+  writer.cubic(straight(0.5, 1.5), 0.0);
+  writer.cubic(straight(1.5, 2.0), 0.0);
+  writer.finish();
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].feedrate, 50.0);
+  EXPECT_NEAR(segments[0].length, 1.0, 1e-9);
+  EXPECT_EQ(segments[1].feedrate, 10.0);
+  EXPECT_NEAR(segments[1].length, 1.0, 1e-9);
+}
+
 TEST_F(SegmentWriterTest, BlocksThatACurveEndsTogetherAreNotReadAfterwards) {
   constexpr int kBlocks = 400;
   for (int i = 0; i < kBlocks; ++i) {  // 1 nm each, with changing demands

@@ -147,6 +147,30 @@ TEST(SmoothBuilder, LeavesOutSpecks) {
                           [](const Segment& segment) { return segment.deviation >= 1e-5; }));
 }
 
+// The speck was the line from then on: 10 mm behind a block of 10 nm had that block's F, whether
+// lower or higher than their own.
+TEST(SmoothBuilder, ALineBehindASpeckHasItsOwnFeedrate) {
+  for (const double feedrate : {1.0, 100.0}) {
+    const auto segments = smooth({line_block({0, 0, 0}, {10, 0, 0}, 20.0),
+                                  line_block({10, 0, 0}, {10, 1e-5, 0}, feedrate),
+                                  line_block({10, 1e-5, 0}, {10, 10, 0}, 50.0)});
+    double length = 0.0;
+    for (const Segment& segment : segments) {
+      EXPECT_NE(segment.feedrate, feedrate);
+      length += segment.feedrate == 50.0 ? segment.length : 0.0;
+    }
+    EXPECT_NEAR(length, 10.0, 0.05) << feedrate;
+  }
+}
+
+// What begins with a speck was a short block, whatever its length.
+TEST(SmoothBuilder, ALineBehindASpeckIsAsShortAsItIs) {
+  std::vector<Vec3> points{{0, 0, 0}, {1e-5, 0, 0}, {30, 0, 0}, {30.1, 0.001, 0}};
+  const auto segments = smooth(polyline(points));
+  ASSERT_FALSE(segments.empty());
+  EXPECT_TRUE(std::holds_alternative<Line>(segments.front().geometry));
+}
+
 TEST(SmoothBuilder, RestsAtDwells) {
   std::vector<gcode::Block> blocks = polyline(circle_points(10.0, 0.3, 20));
   blocks.push_back(dwell_block(blocks.back().end, 0.5));

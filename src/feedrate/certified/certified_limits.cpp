@@ -215,9 +215,9 @@ double CertifiedLimits::limit_at(const BendInterval& interval, double feedrate, 
 }
 
 /// Limit of the middle of a brief bend [mm/s].
-/// @param limit    that of the bend beside it [mm/s]
+/// @param bend     the zone beside it
 /// @param tangent  dC/ds in the middle
-double CertifiedLimits::dip_limit(const BendPeak& peak, double limit, double feedrate,
+double CertifiedLimits::dip_limit(const BendPeak& peak, const LimitZone& bend, double feedrate,
                                   const Vec3& tangent) const {
   double jerk = limits_.jerk;
   for (int i = 0; i < 3; ++i) {
@@ -227,7 +227,8 @@ double CertifiedLimits::dip_limit(const BendPeak& peak, double limit, double fee
   }
   const double reached =
       std::isfinite(peak.room) ? path::feedrate_within(peak.room, feedrate, jerk) : feedrate;
-  return limit * path::best_passage(peak.half, limit, reached, jerk).dip;
+  const path::Bump bump{peak.half, bend.limit, std::min(bend.jerk, jerk)};
+  return bend.limit * path::best_passage(bump, reached, jerk).dip;
 }
 
 /// Lowers the limits of a zone to what the axes allow, and the jerk as a vector.
@@ -278,7 +279,7 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
       keep_axes(curve, interval, zone);
     }
     if (has_dips && peak != bends_.peaks().end() && peak->interval == i) {
-      const double dip = dip_limit(*peak, zone.limit, feedrate,
+      const double dip = dip_limit(*peak, zone, feedrate,
                                    path::point_from(curve.curve.derivatives(interval.u0)).tangent);
       if (dip < zone.limit && !row.is_empty()) {
         row.append({zone.begin, zone.begin, dip});
@@ -359,7 +360,7 @@ void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) co
   const LimitZone& zone = zones[first];
   if (before.end > before.begin && zone.end > zone.begin && before.end == zone.begin &&
       !is_passage(before) && !is_passage(zone) && before.limit == zone.limit &&
-      before.acceleration == zone.acceleration && before.jerk == zone.jerk) {
+      has_same_ramp(before, zone)) {
     before.end = zone.end;
     zones.erase(zones.begin() + static_cast<std::ptrdiff_t>(first));
   }

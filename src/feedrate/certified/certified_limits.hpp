@@ -44,6 +44,7 @@ class CertifiedLimits final : public LimitSource {
   /// Merges zones[first] with the zone before it if both have the same limits.
   void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
   RampLimits least_ramp() const override;
+  bool divides_jerk() const override { return has_axis_limits_; }
 
   /// The zone of a part of a bump at a corner.
   /// @param piece    of the path, by the length of the base path
@@ -59,7 +60,8 @@ class CertifiedLimits final : public LimitSource {
   double any_turn_feedrate() const noexcept;
   double most_turn(const BendInterval& interval) const noexcept;
   double limit_at(const BendInterval& interval, double feedrate, On what) const;
-  double dip_limit(const BendPeak& peak, double limit, double feedrate, const Vec3& tangent) const;
+  double dip_limit(const BendPeak& peak, const LimitZone& bend, double feedrate,
+                   const Vec3& tangent) const;
   void keep_derivatives(const ByArcLength& begin, const ByArcLength& middle, const ByArcLength& end,
                         BendKind bend, LimitZone& zone) const;
   void keep_axes(const path::FittedCurve& curve, const BendInterval& interval,

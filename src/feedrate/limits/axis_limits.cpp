@@ -83,6 +83,40 @@ void keep_more_below(const PathBounds& path, const Limits& limits, LimitZone& zo
   }
 }
 
+/// Largest v (1 - S v^2) of a zone up to its limit, S = `bend` [mm/s].
+double largest_share_of_feedrate(const LimitZone& zone) noexcept {
+  const double peak =
+      zone.bend > 0.0 ? std::min(1.0 / std::sqrt(3.0 * zone.bend), zone.limit) : zone.limit;
+  return peak * (1.0 - zone.bend * peak * peak);
+}
+
+/// Jerk that bends use up of an axis at most, at any feedrate up to the zone's limit V, with the
+/// acceleration a(v) that the zone allows there (ramp_levels.hpp) [mm/s^3].
+///
+/// With a_V it is the most at V. What more is allowed below keeps M (1 - S v^2) and P (1 - R v^3) / v:
+/// by the first 3 k v a is M times the largest v (1 - S v^2), which may lie below V; by the second
+/// all of it is the axis's jerk for bends.
+double bend_jerk_used(const PathBounds& path, int axis, const Limits& limits,
+                      const LimitZone& zone) noexcept {
+  const double k = path.curvature[axis];
+  const double v = zone.limit;
+  const double twist = path.twist[axis] * v * v * v;
+  if (!(k > kTiny)) {  // no acceleration is limited, and none uses up jerk
+    return twist;
+  }
+  const auto used_with = [&](double product, bool adds) {  // v a
+    return adds ? 3.0 * k * product + twist : std::max(3.0 * k * product, twist);
+  };
+  const double most = bend_jerk(path.tangent[axis], limits.axis_jerk[axis]);
+  const double below = zone.most * largest_share_of_feedrate(zone);
+  const auto used = [&](double acceleration, bool adds) {
+    const double at_limit = used_with(v * std::min(acceleration, limits.acceleration), adds);
+    return std::max(at_limit, std::min(used_with(below, adds), most));
+  };
+  return std::max(used(zone.acceleration, path.trend[axis] >= 0.0),
+                  used(zone.deceleration, path.trend[axis] <= 0.0));
+}
+
 }  // namespace
 
 bool has_axis_limits(const Limits& limits) noexcept {
@@ -114,23 +148,13 @@ void keep_axis_limits(const PathBounds& path, const Limits& limits, BendKind ben
       zone.deceleration = std::min(zone.deceleration, braking);
     }
   }
-  for (int i = 0; i < 3; ++i) {
-    if (!(limits.axis_jerk[i] > 0.0 && path.tangent[i] > kTiny)) {
-      continue;
-    }
-    const auto used_with = [&](double a, bool adds) {  // of the axis's jerk
-      const double part = 3.0 * path.curvature[i] * v * std::min(a, limits.acceleration);
-      const double twist = path.twist[i] * v * v * v;
-      return adds ? part + twist : std::max(part, twist);
-    };
-    // Without any part across the path no acceleration is limited, and none uses up jerk.
-    const double used = path.curvature[i] > kTiny
-                            ? std::max(used_with(zone.acceleration, path.trend[i] >= 0.0),
-                                       used_with(zone.deceleration, path.trend[i] <= 0.0))
-                            : path.twist[i] * v * v * v;
-    zone.jerk = std::min(zone.jerk, (limits.axis_jerk[i] - used) / path.tangent[i]);
-  }
   keep_more_below(path, limits, zone);
+  for (int i = 0; i < 3; ++i) {
+    if (limits.axis_jerk[i] > 0.0 && path.tangent[i] > kTiny) {
+      const double used = bend_jerk_used(path, i, limits, zone);
+      zone.jerk = std::min(zone.jerk, (limits.axis_jerk[i] - used) / path.tangent[i]);
+    }
+  }
 }
 
 }  // namespace twin::feedrate

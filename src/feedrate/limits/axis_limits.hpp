@@ -31,7 +31,8 @@ bool has_axis_limits(const Limits& limits) noexcept;
 ///   jerk          t j + 3 k v a + k' v^3
 /// where t, k, k' are its parts of the path's derivatives. The limits of the axis are shared out:
 ///   of its acceleration k v^2 may use up 3/4, and a gets what is left;
-///   of its jerk 3 k v a and k' v^3 together may use up 0.95 - 0.4 t, and j gets what is left.
+///   of its jerk 3 k v a and k' v^3 together may use up 0.95 - 0.4 t, and j gets what they leave at
+///   the feedrate where they use up the most.
 /// On a straight line j gets all of it. Where k and k' have one sign the parts of a deceleration and
 /// of k' v^3 have opposite signs, so that the larger of them counts, not the sum; where k and k' have
 /// opposite signs this holds for an acceleration. So a bend that tightens leaves much for braking,

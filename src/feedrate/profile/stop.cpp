@@ -96,6 +96,13 @@ Brake make_hold(const PathMotion& from, double distance) noexcept {
   return brake;
 }
 
+/// To rest where J is too little to lose the deceleration before the feedrate: with the jerk that does.
+Brake rest_at_once(const PathMotion& from, const RampLimits& limits) noexcept {
+  RampLimits harder = limits;
+  harder.jerk = std::max(limits.jerk, 0.5 * from.a * from.a / from.v);
+  return make_brake(from, harder);
+}
+
 /// Share of a feedrate near rest that is rounding of the parts before [-]. Where the plan loses its
 /// last feedrate with J, a stop that follows it is no slower than this.
 constexpr double kTailRounding = 1e-6;
@@ -117,8 +124,8 @@ bool can_rest(const PathMotion& from, double jerk) noexcept {
   return from.a >= 0.0 || from.a * from.a <= 2.0 * jerk * from.v * (1.0 + kTailRounding);
 }
 
-Brake make_slowdown(const PathMotion& from, const RampLimits& limits, double distance,
-                    double fall) noexcept {
+std::optional<Brake> make_slowdown(const PathMotion& from, const RampLimits& limits,
+                                   double distance, double fall) noexcept {
   // With -J for longer the deceleration at the end is larger, and the feedrate lower.
   double low = std::max(from.a, 0.0) / limits.jerk;
   double high = low + from.v / limits.acceleration + limits.acceleration / limits.jerk;
@@ -130,6 +137,9 @@ Brake make_slowdown(const PathMotion& from, const RampLimits& limits, double dis
     (is_too_low ? high : low) = middle;
   }
   const Lowering lowest(from, limits, low, distance);
+  if (lowest.end.v <= 0.0) {
+    return std::nullopt;
+  }
   Brake brake;
   for (std::size_t i = 0; i < brake.phases.size(); ++i) {
     brake.phases[i] = lowest.phases[i];
@@ -164,8 +174,8 @@ StopPart make_stop_part(const PathMotion& from, const Stretch& stretch) noexcept
     cut_at(part.brake, stretch.end);
     return part;
   }
-  part.brake = make_slowdown(from, stretch.ramp, room, stretch.fall);
-  return part;
+  const auto slowdown = make_slowdown(from, stretch.ramp, room, stretch.fall);
+  return slowdown ? StopPart{*slowdown, false} : StopPart{rest_at_once(from, stretch.ramp), true};
 }
 
 }  // namespace twin::feedrate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "feedrate/profile/phases.hpp"
 #include "feedrate/profile/ramps.hpp"
@@ -40,6 +41,8 @@ struct StopPart {
 ///   3. Else, where the plan rises and the stretch is too short to lose its acceleration, -J.
 ///   4. Else as low as can be so that the end is passed as a slower run of the plan passes it
 ///      (make_slowdown()).
+///   5. Where even that would rest with a deceleration, which the plan rules out but for rounding,
+///      to rest with the least jerk that does.
 ///
 /// Why there is always a next part. The plan, run x times as fast with x < 1, has the feedrate x v,
 /// the acceleration x^2 a and the jerk x^3 j at each place. So it keeps all limits that the plan
@@ -66,9 +69,10 @@ bool can_rest(const PathMotion& from, double jerk) noexcept;
 /// the lowest such feedrate v.
 /// @param distance  shorter than that of the brake to rest [mm]
 /// @param fall      >= 0 [1/mm]
+/// @returns nothing where J is too little to lose the deceleration before the feedrate
 /// @note Real-time safe.
-Brake make_slowdown(const PathMotion& from, const RampLimits& limits, double distance,
-                    double fall) noexcept;
+std::optional<Brake> make_slowdown(const PathMotion& from, const RampLimits& limits,
+                                   double distance, double fall) noexcept;
 
 /// Motion at the end of a brake.
 PathMotion end_of(const Brake& brake) noexcept;

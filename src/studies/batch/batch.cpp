@@ -1,5 +1,7 @@
 #include "studies/batch/batch.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <mutex>
 #include <optional>
@@ -9,6 +11,7 @@
 #include "core/parallel_for.hpp"
 #include "results/metrics/summary.hpp"
 #include "runtime/run.hpp"
+#include "runtime/run_errors.hpp"
 #include "session/machine.hpp"
 
 namespace twin::studies::batch {
@@ -18,6 +21,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Whether an error tells of the computer, which may do better another time, and not of the job.
+bool is_of_host(const Error& error) {
+  return error.code == ErrorCode::kFile || error.code == ErrorCode::kHost;
 }
 
 /// The jobs of a batch and how far they are, shared by the threads.
@@ -46,6 +54,12 @@ class Work {
     if (is_stopped()) {
       return fail(ErrorCode::kInterrupted, "interrupted: what is stored stays");
     }
+    if (host_error_) {
+      host_error_->message += fmt::format(
+          "; {} of {} jobs are not kept for such reasons, and run again at the next call", left_,
+          report_.jobs);
+      return tl::unexpected(std::move(*host_error_));
+    }
     return report_;
   }
 
@@ -53,6 +67,7 @@ class Work {
   struct Outcome {
     bool was_found = false;
     StoredResult result;
+    std::optional<Error> host_error;  // why there is no result, though the store is well
   };
 
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
@@ -60,26 +75,34 @@ class Work {
 
   Expected<Outcome> do_job(const PreparedJob& job) const {
     if (const auto stored = store_.find(job)) {
-      return Outcome{true, *stored};
+      return Outcome{true, *stored, {}};
     }
     TWIN_TRY(const std::filesystem::path folder, store_.begin(job));
     Expected<StoredResult> result = guarded(job, folder);
+    if (!result && is_of_host(result.error())) {
+      remove(folder);
+      return Outcome{false, {}, std::move(result).error()};
+    }
     const auto kept = result.and_then([&](const StoredResult& computed) {
-      return store_.commit(job, folder, computed).map([&] { return Outcome{false, computed}; });
+      return store_.commit(job, folder, computed).map([&] { return Outcome{false, computed, {}}; });
     });
     if (!kept) {
-      std::error_code ignored;
-      std::filesystem::remove_all(folder, ignored);
+      remove(folder);
     }
     return kept;
+  }
+
+  static void remove(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
   }
 
   Expected<StoredResult> guarded(const PreparedJob& job,
                                  const std::filesystem::path& folder) const {
     try {
       return run_job(job, folder, options_.stop);
-    } catch (const std::exception& error) {
-      return fail(ErrorCode::kMachine, error.what());
+    } catch (...) {
+      return tl::unexpected(runtime::thrown("the run"));
     }
   }
 
@@ -89,6 +112,11 @@ class Work {
         error_ = outcome.error();
         is_broken_ = true;
       }
+      return;
+    }
+    if (outcome->host_error) {
+      ++left_;
+      host_error_ = host_error_ ? host_error_ : outcome->host_error;
       return;
     }
     ++(outcome->was_found ? report_.found : report_.computed);
@@ -113,6 +141,8 @@ class Work {
   std::mutex mutex_;  // of what follows
   Report report_;
   std::optional<Error> error_;
+  std::size_t left_ = 0;             // jobs without a result
+  std::optional<Error> host_error_;  // of the first of them
 };
 
 /// The jobs of the shard, of equal ones the first.
@@ -153,7 +183,7 @@ Expected<StoredResult> run_job(const PreparedJob& job, const std::filesystem::pa
   if (error == nullptr) {
     return StoredResult{results::to_reproducible_json(result->summary), {}};
   }
-  if (error->code == ErrorCode::kInterrupted) {
+  if (error->code == ErrorCode::kInterrupted || is_of_host(*error)) {
     return tl::unexpected(*error);
   }
   std::error_code ignored;

@@ -39,8 +39,10 @@ struct Report {
 
 /// Runs the jobs that a store does not hold, in lockstep, over the cores. Equal jobs are run once.
 ///
-/// A run that fails is a result like another and is kept. An error of the store ends the batch;
-/// what is stored stays.
+/// A run that fails is a result like another and is kept. What fails for want of the computer's disk,
+/// memory, descriptors or threads is no result: the other jobs are run, then the first such error is
+/// returned, and such a job runs again at the next call. An error of the store ends the batch; what
+/// is stored stays.
 Expected<Report> run_batch(std::span<const PreparedJob> jobs, const Store& store,
                            const Options& options);
 
@@ -48,7 +50,8 @@ Expected<Report> run_batch(std::span<const PreparedJob> jobs, const Store& store
 ///
 /// @param folder  gets trace.csv if the job keeps it
 /// @param stop    ends it; may be null
-/// @returns what the store keeps; kInterrupted if it was stopped
+/// @returns what the store keeps; kInterrupted if it was stopped; kFile or kHost if the computer
+///          failed and not the run
 Expected<StoredResult> run_job(const PreparedJob& job, const std::filesystem::path& folder,
                                const std::atomic<bool>* stop);
 

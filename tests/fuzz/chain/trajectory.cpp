@@ -8,10 +8,28 @@
 namespace twin::fuzz {
 namespace {
 
-constexpr double kMostTimes = 4.0;      // of the reference time
-constexpr double kContactTimes = 12.0;  // the same where the tool's edge is faster than its centre
-constexpr double kMostMore = 2000.0;    // [periods]
+constexpr double kMostTimes = 4.0;        // of the reference time
+constexpr double kMostMore = 2000.0;      // [periods]
 constexpr std::size_t kRestPeriods = 40;  // so many equal set points in a hold are a rest
+
+/// Time that the edge of a tool takes around all turns of the program at the programmed feedrates: it
+/// moves on a circle of the tool's radius there, while the centre hardly moves [s].
+double edge_time(const Case& made) {
+  double time = 0.0;
+  Vec3 before = Vec3::Zero();
+  for (const Piece& piece : made.program.pieces) {
+    const std::vector<Vec3>& points = piece.shape.points;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Vec3 step = points[i] - points[i - 1];
+      if (before.squaredNorm() > 0.0 && step.squaredNorm() > 0.0) {
+        const double turn = std::atan2(before.cross(step).norm(), before.dot(step));
+        time += turn * made.machine.planning.tool_radius / piece.feedrate;
+      }
+      before = step.squaredNorm() > 0.0 ? step : before;
+    }
+  }
+  return time;
+}
 
 std::size_t most_steps(const Case& made) {
   double lowest = 100.0;
@@ -21,8 +39,8 @@ std::size_t most_steps(const Case& made) {
     end = change.time;
   }
   const bool is_contact = made.machine.planning.feedrate_rule == FeedrateRule::kContactSpeed;
-  const double times = is_contact ? kContactTimes : kMostTimes;
-  const double time = times * made.reference_time * 100.0 / lowest + end;
+  const double least = made.reference_time + (is_contact ? edge_time(made) : 0.0);
+  const double time = kMostTimes * least * 100.0 / lowest + end;
   return static_cast<std::size_t>(time / made.machine.period + kMostMore);
 }
 

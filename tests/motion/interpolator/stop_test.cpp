@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "feedrate/tolerances.hpp"
 #include "following.hpp"
 #include "gcode/reader.hpp"
 #include "tests/support/random_program.hpp"
@@ -203,6 +204,65 @@ TEST(StopPart, WithNothingLeftOfTheFeedrateTheStopIsOver) {
     EXPECT_EQ(part.brake.duration, 0.0) << v;
     EXPECT_EQ(feedrate::end_of(part.brake).s, 0.0199) << v;
   }
+}
+
+// Two stretches met where the plan was all but at rest. The place, 8e-11 mm before the end of the
+// first, counted as on the second, whose jerk was too little to lose the deceleration before the
+// feedrate: the slowdown came to the second's end, 0.08 mm further on, in no time.
+TEST(StopPart, WithTooLittleJerkToLoseItsDecelerationItRestsAtOnce) {
+  const feedrate::PathMotion from{0.07629612827564351, 6.462948739072161e-06, -0.3463151421877342};
+  feedrate::Stretch stretch;
+  stretch.end = 0.152592257;
+  stretch.ramp = {1286.93312, 9198.135};
+  const auto part = feedrate::make_stop_part(from, stretch);
+  EXPECT_TRUE(part.rests);
+  const feedrate::PathMotion end = feedrate::end_of(part.brake);
+  EXPECT_NEAR(end.v, 0.0, 1e-12);
+  EXPECT_NEAR(end.a, 0.0, 1e-9);
+  EXPECT_NEAR(end.s, from.s, 1e-9);
+}
+
+/// A line that is gone along from rest to rest with one jerk up and down, in 4 t.
+feedrate::PlannedSegment one_hump(std::int64_t index, double t, double jerk) {
+  const double length = 2.0 * jerk * t * t * t;
+  feedrate::PlannedSegment planned;
+  planned.index = index;
+  planned.segment.geometry = path::Line{};
+  planned.segment.length = length;
+  feedrate::PathMotion at{0.0, 0.0, 0.0};
+  for (const double j : {jerk, -jerk, -jerk, jerk}) {
+    planned.phases.push_back({t, at.s, at.v, at.a, j});
+    at = feedrate::motion_at(planned.phases.back(), t);
+  }
+  planned.limits = {{0.0, length, 100.0}};
+  return planned;
+}
+
+// What begins 8e-11 mm before the end of a stretch, all but at rest there, began on the next one.
+TEST(Stop, JustBeforeARestWhereTheNextStretchHasLessJerkItRestsThere) {
+  constexpr double kJerk = 9278.596;
+  const double t = 0.25 * (0.064 + 3.7e-5);  // so the 64th period ends 37 us before the rest
+  test::Plan plan;
+  for (int i = 0; i < 2; ++i) {
+    plan.segments.push_back(one_hump(i, t, i == 0 ? kJerk : 0.99 * kJerk));
+  }
+  const double first = plan.segments[0].segment.length;
+  const double second = plan.segments[1].segment.length;
+  plan.segments[0].stretches = {{.end = first, .ramp = {1298.0, kJerk}},
+                                {.end = first + second, .ramp = {1286.0, 0.99 * kJerk}}};
+  plan.segments[1].stretches = {{.end = second, .ramp = {1286.0, 0.99 * kJerk}}};
+  PlanSource source(plan);
+  Interpolator interpolator(source, 1e-3);
+  SetPoint point;
+  for (int i = 0; i <= 64; ++i) {
+    ASSERT_EQ(interpolator.step(point), Status::kMoving);
+  }
+  ASSERT_LT(interpolator.distance(), first);
+  ASSERT_GT(interpolator.distance(), first - feedrate::kPlaceRounding);
+  interpolator.brake({2450.0, 50000.0});
+  ASSERT_EQ(interpolator.step(point), Status::kMoving);
+  EXPECT_NEAR(interpolator.distance(), first, 1e-9);
+  EXPECT_TRUE(interpolator.is_at_rest());
 }
 
 TEST(StopUnderAxisLimits, KeepsThemFromRandomInstantsOfRandomPrograms) {

@@ -123,6 +123,35 @@ TEST_F(BatchTest, ARunThatFailsIsKeptWithItsReason) {
   EXPECT_EQ(run_batch(some, store(), {})->failed, 1U);
 }
 
+// A full disk while the trace was written was the job's result, and stayed so when there was room.
+TEST_F(BatchTest, WhatAFullDiskCutShortIsNotKeptAndRunsAgain) {
+  std::ofstream(file()) << "G21 G90\nG1 X30 Y10 F1200\nX0 Y40\nM30\n";
+  JobMaker maker;
+  std::vector<PreparedJob> both;
+  for (const auto trace : {results::TraceFiles::kCsv, results::TraceFiles::kNone}) {
+    Job job;
+    job.program = file();
+    job.hal = JobMachine::kIdeal;
+    job.trace = trace;
+    both.push_back(*maker.prepare(job));
+  }
+  {
+    const test::FileSizeLimit full(30000);
+    const auto report = run_batch(both, store(), {});
+    ASSERT_FALSE(report);
+    EXPECT_THAT(to_string(report.error()), HasSubstr("cannot write"));
+    EXPECT_THAT(report.error().message, HasSubstr("1 of 2 jobs are not kept"));
+    EXPECT_THAT(report.error().message, HasSubstr("run again at the next call"));
+  }
+  EXPECT_FALSE(store().find(both[0]));
+  EXPECT_TRUE(store().find(both[1]));  // the other one has its result
+  const auto again = run_batch(both, store(), {});
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(again->computed, 1U);
+  EXPECT_EQ(again->found, 1U);
+  EXPECT_EQ(again->failed, 0U);
+}
+
 TEST_F(BatchTest, AFolderThatIsNoStoreIsRefused) {
   const auto refused = Store::open(folder.path());  // it has a program in it
   ASSERT_FALSE(refused);
