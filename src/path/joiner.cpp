@@ -185,8 +185,14 @@ void Joiner::join_to_last() {
   if (bump.turn.norm() > kNoJump && join_by_passage(width)) {
     return;
   }
-  if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin) ||
-      is_judged_sharp(bump, width, end, begin)) {
+  const auto is_sharp = [&] {
+    if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin)) {
+      return true;
+    }
+    make_bump(bump, width);
+    return is_judged_sharp(width, end, begin);
+  };
+  if (is_sharp()) {
     emit_body(before_, before_.end);
     if (has_jump) {
       writer_.end_curve();
@@ -282,67 +288,66 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
   return lost_by_stop < lost_in_bump;
 }
 
-/// Whether the judge of corners would rather stop than go through a bump.
-bool Joiner::is_judged_sharp(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                             const PathPoint& begin) {
+/// Whether the judge of corners would rather stop than go through the bump that was made.
+bool Joiner::is_judged_sharp(double width, const PathPoint& end, const PathPoint& begin) {
   if (judge_ == nullptr) {
     return false;
   }
-  make_bump(bump, width);
-  return judge_->is_stop_quicker({pieces_,
+  return judge_->is_stop_quicker({bump_,
                                   before_.end,
                                   width,
                                   {end, before_.end - before_.begin, before_.feedrate},
                                   {begin, under_way_.end - under_way_.begin, under_way_.feedrate}});
 }
 
-/// Makes the pieces of the path around the corner.
+/// Makes the pieces of the path around the corner, bump_.
 void Joiner::make_bump(const geometry::CornerBump& bump, double width) {
   const double corner = before_.end;
-  pieces_.clear();
-  append_pieces(before_, corner - width, corner);
-  append_pieces(under_way_, corner, corner + width);
-  geometry::add_bump(bump, corner, width, pieces_);
+  bump_.clear();
+  append_pieces(before_, corner - width, corner, bump_);
+  append_pieces(under_way_, corner, corner + width, bump_);
+  geometry::add_bump(bump, corner, width, bump_);
 }
 
+/// Sends the bump that was made to the writer.
 void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {
   const double corner = before_.end;
   const double base = std::max(deviation(before_, corner - width, corner),
                                deviation(under_way_, corner, corner + width));
-  make_bump(bump, width);
-  for (const geometry::SpanCubic& piece : pieces_) {
+  for (const geometry::SpanCubic& piece : bump_) {
     writer_.cubic(piece, base + bump.height(width));
   }
   under_way_.from = corner + width;
 }
 
 /// Pieces of the base path over a stretch of an element.
-void Joiner::append_pieces(const Element& element, double begin, double end) {
+void Joiner::append_pieces(const Element& element, double begin, double end,
+                           std::vector<geometry::SpanCubic>& pieces) {
   if (element.kind == Kind::kLine) {
     const Vec3 start = element.line.start + (begin - element.begin) * element.line.direction;
-    pieces_.push_back({begin, end, start, element.line.direction, Vec3::Zero(), Vec3::Zero()});
+    pieces.push_back({begin, end, start, element.line.direction, Vec3::Zero(), Vec3::Zero()});
     return;
   }
   if (element.kind == Kind::kArc) {
     append_arc_pieces(element.arc, begin - element.begin, end - element.begin, element.begin,
-                      pieces_);
+                      pieces);
     return;
   }
   if (element.kind == Kind::kCurve) {
     append_curve_pieces(element.curve, begin - element.begin, end - element.begin, element.begin,
-                        pieces_);
+                        pieces);
     return;
   }
   double from = begin;
-  const std::size_t first = pieces_.size();
+  const std::size_t first = pieces.size();
   for (std::size_t i = element.spans.begin_index(); i < element.spans.end_index(); ++i) {
     const geometry::SpanCubic& span = element.spans[i].cubic;
     const double to = std::min(span.end, end);
-    if (to - from >= geometry::shortest_part(span) || (to == end && pieces_.size() == first)) {
-      pieces_.push_back(geometry::part_of(span, from, to));
+    if (to - from >= geometry::shortest_part(span) || (to == end && pieces.size() == first)) {
+      pieces.push_back(geometry::part_of(span, from, to));
       from = to;
-    } else if (to > from && pieces_.size() > first) {
-      pieces_.back().end = from = to;
+    } else if (to > from && pieces.size() > first) {
+      pieces.back().end = from = to;
     }
     if (to == end) {
       return;
@@ -381,7 +386,7 @@ void Joiner::emit_body(Element& element, double end) {
     emit_line(element, end);
   } else {
     pieces_.clear();
-    append_pieces(element, element.from, end);
+    append_pieces(element, element.from, end, pieces_);
     for (const geometry::SpanCubic& piece : pieces_) {
       writer_.cubic(piece, deviation(element, piece.begin, piece.end));
     }

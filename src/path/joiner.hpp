@@ -86,8 +86,7 @@ class Joiner : public geometry::RunSink {
   double bump_width(const geometry::CornerBump& bump) const;
   bool is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
                        const PathPoint& begin) const;
-  bool is_judged_sharp(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                       const PathPoint& begin);
+  bool is_judged_sharp(double width, const PathPoint& end, const PathPoint& begin);
   void make_bump(const geometry::CornerBump& bump, double width);
   void emit_bump(const geometry::CornerBump& bump, double width);
   void emit_body(Element& element, double end);
@@ -95,7 +94,8 @@ class Joiner : public geometry::RunSink {
 
   static PathPoint base_point(const Element& element, ElementEnd end);
   static double deviation(const Element& element, double begin, double end);
-  void append_pieces(const Element& element, double begin, double end);
+  static void append_pieces(const Element& element, double begin, double end,
+                            std::vector<geometry::SpanCubic>& pieces);
 
   SegmentWriter& writer_;
   Limits limits_;
@@ -106,8 +106,9 @@ class Joiner : public geometry::RunSink {
   double feedrate_ = 0.0;
   Element before_;
   Element under_way_;
-  bool is_joined_ = false;  // the corner at the begin of under_way_ is rounded
-  std::vector<geometry::SpanCubic> pieces_;
+  bool is_joined_ = false;                   // the corner at the begin of under_way_ is rounded
+  std::vector<geometry::SpanCubic> bump_;    // the path around the corner at hand
+  std::vector<geometry::SpanCubic> pieces_;  // of the body that is being sent
 };
 
 }  // namespace twin::path

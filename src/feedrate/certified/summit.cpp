@@ -53,6 +53,14 @@ double highest_with_room(const Function& missing, double v_least, double at_leas
 
 }  // namespace
 
+bool extend(Rise& rise) {
+  const std::size_t phases = rise.phases().size();
+  const double reached = rise.reached();
+  const double top = rise.top();
+  rise.extend();
+  return rise.phases().size() != phases || rise.reached() > reached || rise.top() > top;
+}
+
 std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap) {
   Summit summit;
   const auto room_at = [&](double v) {
@@ -67,11 +75,8 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
     if (lower.is_complete() || v >= cap || (v >= v_least && room_at(v) <= 0.0)) {
       break;
     }
-    const std::size_t phases = lower.phases().size();
-    const double reached = lower.reached();
-    lower.extend();
-    if (lower.phases().size() == phases && lower.reached() <= reached && lower.top() <= v) {
-      break;  // rounding leaves nothing that it could be extended by
+    if (!extend(lower)) {
+      break;
     }
   }
   double high = std::min({up.top(), down.top(), cap});

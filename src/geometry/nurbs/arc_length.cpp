@@ -22,9 +22,12 @@ constexpr int kMoreHalvings = 2000;
 /// R of Eq. (1). A larger R makes the quadrature more exact and needs shorter intervals: at R = 4
 /// its error would be 3e-9 of an interval, at R = 16 below the rounding.
 constexpr double kRadius = 8.0;
+constexpr double kEvenShare = 0.5;  // of q_0 in Eq. (1)
 
-/// R and the largest length of an interval with sparse samples [mm]; see the class.
+/// R, the share of q_0 in Eq. (1), and the largest length of an interval with sparse samples [mm]; see the
+/// class.
 constexpr double kSparseRadius = 4.0;
+constexpr double kSparseShare = 0.95;
 constexpr double kSparseLength = 0.03;
 
 /// Curvature of an interval that is straight [1/mm]: one sample is enough.
@@ -55,13 +58,13 @@ struct Tangent {
   }
 };
 
-/// Whether q varies little enough over an interval, Eq. (1) with a radius R.
-bool is_smooth(const Quartic& q, double radius) noexcept {
+/// Whether q varies little enough over an interval, Eq. (1) with a radius R, by a share of q_0.
+bool is_smooth(const Quartic& q, double radius, double share) noexcept {
   double sum = 0.0;
   for (std::size_t k = 4; k >= 1; --k) {
     sum = (sum + std::abs(q[k])) * radius;
   }
-  return sum <= 0.5 * q[0];
+  return sum <= share * q[0];
 }
 
 /// Whether an interval is shorter than a length [mm], however fast the curve is on it.
@@ -120,11 +123,11 @@ bool is_monotone(double a, double middle, double b) noexcept {
 /// Where an interval whose curvature is largest at its begin is sampled, from x = -1 on, and the
 /// weights of the five values of the speed for the arc length up to there. Each step is about as
 /// long as the distance from the begin.
-constexpr std::size_t kGraded = 3;
-constexpr gauss::Values<kGraded> kGradedPlaces = {-0.75, -0.5, 0.0};
+constexpr std::size_t kGraded = 4;
+constexpr gauss::Values<kGraded> kGradedPlaces = {-0.875, -0.75, -0.5, 0.0};
 constexpr std::array<gauss::Values<5>, kGraded> kGradedWeights = {
     gauss::partial_weights<5>(kGradedPlaces[0]), gauss::partial_weights<5>(kGradedPlaces[1]),
-    gauss::partial_weights<5>(kGradedPlaces[2])};
+    gauss::partial_weights<5>(kGradedPlaces[2]), gauss::partial_weights<5>(kGradedPlaces[3])};
 
 }  // namespace
 
@@ -158,7 +161,8 @@ struct ArcLength::Builder {
     if (sampling == Sampling::kSparse && depth > 0 && add_sparse(cubic, begin, half, tangent, q)) {
       return;
     }
-    if (!is_smooth(q, kRadius) && !is_shorter(q, half, kLengthTolerance) && depth < kMaxDepth) {
+    if (!is_smooth(q, kRadius, kEvenShare) && !is_shorter(q, half, kLengthTolerance) &&
+        depth < kMaxDepth) {
       add_cubic(cubic, begin, 0.5 * half, depth + 1);
       add_cubic(cubic, begin + half, 0.5 * half, depth + 1);
       return;
@@ -185,7 +189,7 @@ struct ArcLength::Builder {
   /// @returns false, with nothing done, where it is none
   bool add_sparse(const SpanCubic& cubic, double begin, double half, const Tangent& tangent,
                   const Quartic& q) {
-    if (!is_smooth(q, kSparseRadius) || !is_shorter(q, half, kSparseLength)) {
+    if (!is_smooth(q, kSparseRadius, kSparseShare) || !is_shorter(q, half, kSparseLength)) {
       return false;
     }
     const Bending bending(tangent, q, half);
@@ -193,7 +197,8 @@ struct ArcLength::Builder {
     const double last = bending.at(1.0);
     known_at = begin + 2.0 * half;
     known = last;
-    if (!is_monotone(first, bending.at(0.0), last)) {
+    const double centre = bending.at(0.0);
+    if (!is_monotone(first, centre, last)) {
       return false;
     }
     const gauss::Values<5> speeds = speeds_of(q);
@@ -203,6 +208,9 @@ struct ArcLength::Builder {
     samples->push_back({begin, s, first});
     const bool falls = first > last;
     if (falls ? begin > cubic.begin : begin + 2.5 * half < cubic.end) {
+      samples->push_back({begin + half,
+                          s + half * gauss::weighted_sum(FivePoints::kQuarterWeights[1], speeds),
+                          centre});
       return true;
     }
     for (std::size_t i = 0; i < kGraded; ++i) {
