@@ -315,6 +315,7 @@ void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {
   const double corner = before_->end;
   const double base = std::max(deviation(*before_, corner - width, corner),
                                deviation(*under_way_, corner, corner + width));
+  writer_.make_room(bump_.size());
   for (const geometry::SpanCubic& piece : bump_) {
     writer_.cubic(piece, base + bump.height(width));
   }
