@@ -58,33 +58,33 @@ constexpr std::size_t kFewestHeld = 12;
 
 void Joiner::take_block(const Vec3& from, const Vec3& to, double begin, double end) {
   begin_element(Kind::kLine, begin, end);
-  under_way_.line = {from, (to - from) / (to - from).norm()};
+  under_way_->line = {from, (to - from) / (to - from).norm()};
   join_to_last();
   end_element();
 }
 
 void Joiner::take_arc(const Arc& arc, double begin) {
   begin_element(Kind::kArc, begin, begin + arc.length);
-  under_way_.arc = arc;
+  under_way_->arc = arc;
   join_to_last();
   end_element();
 }
 
 void Joiner::take_curve(FittedCurve&& curve, double begin) {
   begin_element(Kind::kCurve, begin, begin + curve.arc_length.length());
-  under_way_.curve = std::move(curve);
+  under_way_->curve = std::move(curve);
   join_to_last();
   end_element();
 }
 
 void Joiner::take_span(const geometry::SpanCubic& span, double deviation) {
-  if (under_way_.kind == Kind::kNone) {
+  if (under_way_->kind == Kind::kNone) {
     begin_element(Kind::kRun, span.begin, span.end);
   }
-  under_way_.end = span.end;
-  under_way_.spans.push_back({span, deviation});
-  if (!is_joined_ && (under_way_.end - under_way_.begin >= 2.0 * kWidest ||
-                      under_way_.spans.size() >= kMostHeld)) {
+  under_way_->end = span.end;
+  under_way_->spans.push_back({span, deviation});
+  if (!is_joined_ && (under_way_->end - under_way_->begin >= 2.0 * kWidest ||
+                      under_way_->spans.size() >= kMostHeld)) {
     join_to_last();
   }
   if (is_joined_) {
@@ -93,7 +93,7 @@ void Joiner::take_span(const geometry::SpanCubic& span, double deviation) {
 }
 
 void Joiner::end_run() {
-  if (under_way_.kind == Kind::kNone) {
+  if (under_way_->kind == Kind::kNone) {
     return;
   }
   if (!is_joined_) {
@@ -103,31 +103,31 @@ void Joiner::end_run() {
 }
 
 void Joiner::begin_element(Kind kind, double begin, double end) {
-  under_way_.kind = kind;
-  under_way_.begin = under_way_.from = begin;
-  under_way_.end = end;
-  under_way_.tolerance = tolerance_;
-  under_way_.feedrate = feedrate_;
-  under_way_.passage = 0.0;
-  under_way_.spans.restart(0);
+  under_way_->kind = kind;
+  under_way_->begin = under_way_->from = begin;
+  under_way_->end = end;
+  under_way_->tolerance = tolerance_;
+  under_way_->feedrate = feedrate_;
+  under_way_->passage = 0.0;
+  under_way_->spans.restart(0);
   is_joined_ = false;
 }
 
 void Joiner::end_element() {
   std::swap(before_, under_way_);
-  under_way_.kind = Kind::kNone;
+  under_way_->kind = Kind::kNone;
 }
 
 void Joiner::finish() {
-  if (before_.kind != Kind::kNone) {
-    emit_body(before_, before_.end);
-    before_.kind = Kind::kNone;
+  if (before_->kind != Kind::kNone) {
+    emit_body(*before_, before_->end);
+    before_->kind = Kind::kNone;
   }
 }
 
 /// Sends the spans of a run to the writer that no bump at its end can reach.
 void Joiner::release_spans() {
-  Element& run = under_way_;
+  Element& run = *under_way_;
   while (run.spans.size() > kFewestHeld &&
          (run.end - run.spans.front().cubic.end >= kWidest || run.spans.size() > kMostHeld)) {
     const Span& span = run.spans.front();
@@ -175,13 +175,13 @@ double Joiner::deviation(const Element& element, double begin, double end) {
 /// Shapes the corner between the last element and the one under way: a bump, or sharp.
 void Joiner::join_to_last() {
   is_joined_ = true;
-  if (before_.kind == Kind::kNone) {
+  if (before_->kind == Kind::kNone) {
     return;
   }
-  const PathPoint end = base_point(before_, ElementEnd::kLast);
-  const PathPoint begin = base_point(under_way_, ElementEnd::kFirst);
+  const PathPoint end = base_point(*before_, ElementEnd::kLast);
+  const PathPoint begin = base_point(*under_way_, ElementEnd::kFirst);
   geometry::CornerBump bump{begin.tangent - end.tangent, begin.curvature - end.curvature};
-  const bool is_curve = before_.kind == Kind::kCurve || under_way_.kind == Kind::kCurve;
+  const bool is_curve = before_->kind == Kind::kCurve || under_way_->kind == Kind::kCurve;
   const bool has_jump = bump.turn.norm() > (is_curve ? kNoTurnOfCurve : kNoJump) ||
                         bump.bend.norm() > (is_curve ? kNoBendOfCurve : kNoJump);
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
@@ -189,15 +189,21 @@ void Joiner::join_to_last() {
   if (bump.turn.norm() > kNoJump && join_by_passage(width)) {
     return;
   }
-  if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin) ||
-      is_judged_sharp(bump, width, end, begin)) {
-    emit_body(before_, before_.end);
+  const auto is_sharp = [&] {
+    if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin)) {
+      return true;
+    }
+    make_bump(bump, width);
+    return is_judged_sharp(width, end, begin);
+  };
+  if (is_sharp()) {
+    emit_body(*before_, before_->end);
     if (has_jump) {
       writer_.end_curve();
     }
     return;
   }
-  emit_body(before_, before_.end - width);
+  emit_body(*before_, before_->end - width);
   emit_bump(bump, width);
 }
 
@@ -206,45 +212,45 @@ void Joiner::join_to_last() {
 /// @returns false, with nothing done, where there is no better one than the bump
 bool Joiner::join_by_passage(double bump_width) {
   if (corners_ != CornerKind::kPassage || limits_.jerk_of != JerkOf::kVector ||
-      before_.kind != Kind::kLine || under_way_.kind != Kind::kLine) {
+      before_->kind != Kind::kLine || under_way_->kind != Kind::kLine) {
     return false;
   }
-  const double tolerance = kShareUsed * std::min(before_.tolerance, under_way_.tolerance);
-  const double corner = before_.end;
-  const double after = under_way_.end - under_way_.begin;
+  const double tolerance = kShareUsed * std::min(before_->tolerance, under_way_->tolerance);
+  const double corner = before_->end;
+  const double after = under_way_->end - under_way_->begin;
   const auto passage =
-      fit_passage(under_way_.line.start,
-                  {before_.line.direction, corner - before_.begin, corner - before_.from,
-                   before_.feedrate, before_.passage},
-                  {under_way_.line.direction, after, (1.0 - kMostOfLegBesidePassage) * after,
-                   under_way_.feedrate, 0.0},
+      fit_passage(under_way_->line.start,
+                  {before_->line.direction, corner - before_->begin, corner - before_->from,
+                   before_->feedrate, before_->passage},
+                  {under_way_->line.direction, after, (1.0 - kMostOfLegBesidePassage) * after,
+                   under_way_->feedrate, 0.0},
                   tolerance, bump_width, limits_, passages_);
   if (!passage) {
     return false;
   }
-  emit_line(before_, corner - passage->way);
+  emit_line(*before_, corner - passage->way);
   writer_.passage(*passage, corner - passage->way, corner + passage->way);
-  under_way_.from = corner + passage->way;
-  under_way_.passage = passage->feedrate;
+  under_way_->from = corner + passage->way;
+  under_way_->passage = passage->feedrate;
   return true;
 }
 
 /// Half width that the tolerance and both elements allow [mm].
 double Joiner::bump_width(const geometry::CornerBump& bump) const {
-  const double tolerance = kShareUsed * std::min(before_.tolerance, under_way_.tolerance);
-  const double room = before_.end - before_.from;
-  const double corner = before_.end;
-  const double share = before_.passage > 0.0 ? kMostOfLegBesidePassage : 0.5;
-  double width = std::min({kWidest, share * (before_.end - before_.begin), room,
-                           0.5 * (under_way_.end - under_way_.begin), bump.width(tolerance)});
-  const double base = std::max(deviation(before_, corner - width, corner),
-                               deviation(under_way_, corner, corner + width));
+  const double tolerance = kShareUsed * std::min(before_->tolerance, under_way_->tolerance);
+  const double room = before_->end - before_->from;
+  const double corner = before_->end;
+  const double share = before_->passage > 0.0 ? kMostOfLegBesidePassage : 0.5;
+  double width = std::min({kWidest, share * (before_->end - before_->begin), room,
+                           0.5 * (under_way_->end - under_way_->begin), bump.width(tolerance)});
+  const double base = std::max(deviation(*before_, corner - width, corner),
+                               deviation(*under_way_, corner, corner + width));
   if (base >= tolerance) {
     return 0.0;
   }
   width = std::min(width, bump.width(tolerance - base));
   const double left = room - width;
-  const double least = std::min(kShortestBody, 0.05 * (before_.end - before_.begin));
+  const double least = std::min(kShortestBody, 0.05 * (before_->end - before_->begin));
   return left > kNothing && left < least ? width - (least - left) : width;
 }
 
@@ -286,72 +292,73 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
     lost_in_bump += best_passage({width, v, std::min(left, jerk)}, feedrate, jerk).loss;
     lost_by_stop += stop_loss(feedrate, jerk);
   };
-  add_side(before_, end.tangent);
-  add_side(under_way_, begin.tangent);
+  add_side(*before_, end.tangent);
+  add_side(*under_way_, begin.tangent);
   return lost_by_stop < lost_in_bump;
 }
 
-/// Whether the judge of corners would rather stop than go through a bump.
-bool Joiner::is_judged_sharp(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                             const PathPoint& begin) {
+/// Whether the judge of corners would rather stop than go through the bump that was made.
+bool Joiner::is_judged_sharp(double width, const PathPoint& end, const PathPoint& begin) {
   if (judge_ == nullptr) {
     return false;
   }
-  make_bump(bump, width);
-  return judge_->is_stop_quicker({pieces_,
-                                  before_.end,
-                                  width,
-                                  {end, before_.end - before_.begin, before_.feedrate},
-                                  {begin, under_way_.end - under_way_.begin, under_way_.feedrate}});
+  return judge_->is_stop_quicker(
+      {bump_,
+       before_->end,
+       width,
+       {end, before_->end - before_->begin, before_->feedrate},
+       {begin, under_way_->end - under_way_->begin, under_way_->feedrate}});
 }
 
-/// Makes the pieces of the path around the corner.
+/// Makes the pieces of the path around the corner, bump_.
 void Joiner::make_bump(const geometry::CornerBump& bump, double width) {
-  const double corner = before_.end;
-  pieces_.clear();
-  append_pieces(before_, corner - width, corner);
-  append_pieces(under_way_, corner, corner + width);
-  geometry::add_bump(bump, corner, width, pieces_);
+  const double corner = before_->end;
+  bump_.clear();
+  append_pieces(*before_, corner - width, corner, bump_);
+  append_pieces(*under_way_, corner, corner + width, bump_);
+  geometry::add_bump(bump, corner, width, bump_);
 }
 
+/// Sends the bump that was made to the writer.
 void Joiner::emit_bump(const geometry::CornerBump& bump, double width) {
-  const double corner = before_.end;
-  const double base = std::max(deviation(before_, corner - width, corner),
-                               deviation(under_way_, corner, corner + width));
-  make_bump(bump, width);
-  for (const geometry::SpanCubic& piece : pieces_) {
+  const double corner = before_->end;
+  const double base = std::max(deviation(*before_, corner - width, corner),
+                               deviation(*under_way_, corner, corner + width));
+  writer_.make_room(bump_.size());
+  for (const geometry::SpanCubic& piece : bump_) {
     writer_.cubic(piece, base + bump.height(width));
   }
-  under_way_.from = corner + width;
+  under_way_->from = corner + width;
 }
 
 /// Pieces of the base path over a stretch of an element.
-void Joiner::append_pieces(const Element& element, double begin, double end) {
+void Joiner::append_pieces(const Element& element, double begin, double end,
+                           std::vector<geometry::SpanCubic>& pieces) {
   if (element.kind == Kind::kLine) {
     const Vec3 start = element.line.start + (begin - element.begin) * element.line.direction;
-    pieces_.push_back({begin, end, start, element.line.direction, Vec3::Zero(), Vec3::Zero()});
+    pieces.push_back({begin, end, start, element.line.direction, Vec3::Zero(), Vec3::Zero()});
     return;
   }
   if (element.kind == Kind::kArc) {
     append_arc_pieces(element.arc, begin - element.begin, end - element.begin, element.begin,
-                      pieces_);
+                      pieces);
     return;
   }
   if (element.kind == Kind::kCurve) {
     append_curve_pieces(element.curve, begin - element.begin, end - element.begin, element.begin,
-                        pieces_);
+                        pieces);
     return;
   }
   double from = begin;
-  const std::size_t first = pieces_.size();
+  const std::size_t first = pieces.size();
   for (std::size_t i = element.spans.begin_index(); i < element.spans.end_index(); ++i) {
     const geometry::SpanCubic& span = element.spans[i].cubic;
     const double to = std::min(span.end, end);
-    if (to - from >= geometry::shortest_part(span) || (to == end && pieces_.size() == first)) {
-      pieces_.push_back(geometry::part_of(span, from, to));
+    if (to - from >= geometry::shortest_part(span) || (to == end && pieces.size() == first)) {
+      pieces.push_back(geometry::part_of(span, from, to));
       from = to;
-    } else if (to > from && pieces_.size() > first) {
-      pieces_.back().end = from = to;
+    } else if (to > from && pieces.size() > first) {
+      pieces.back().end = from = to;
     }
     if (to == end) {
       return;
@@ -390,7 +397,7 @@ void Joiner::emit_body(Element& element, double end) {
     emit_line(element, end);
   } else {
     pieces_.clear();
-    append_pieces(element, element.from, end);
+    append_pieces(element, element.from, end, pieces_);
     for (const geometry::SpanCubic& piece : pieces_) {
       writer_.cubic(piece, deviation(element, piece.begin, piece.end));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Joiner : public geometry::RunSink {
   /// @param judge  of corners; null: every corner is rounded that can be
   Joiner(SegmentWriter& writer, const Limits& limits, CornerKind corners, CornerJudge* judge)
       : writer_(writer), limits_(limits), corners_(corners), judge_(judge) {}
+  Joiner(const Joiner&) = delete;
+  Joiner& operator=(const Joiner&) = delete;
 
   /// Sets what is asked for on the elements that follow.
   /// @param tolerance  [mm]
@@ -86,8 +89,7 @@ class Joiner : public geometry::RunSink {
   double bump_width(const geometry::CornerBump& bump) const;
   bool is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
                        const PathPoint& begin) const;
-  bool is_judged_sharp(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                       const PathPoint& begin);
+  bool is_judged_sharp(double width, const PathPoint& end, const PathPoint& begin);
   void make_bump(const geometry::CornerBump& bump, double width);
   void emit_bump(const geometry::CornerBump& bump, double width);
   void emit_body(Element& element, double end);
@@ -95,7 +97,8 @@ class Joiner : public geometry::RunSink {
 
   static PathPoint base_point(const Element& element, ElementEnd end);
   static double deviation(const Element& element, double begin, double end);
-  void append_pieces(const Element& element, double begin, double end);
+  static void append_pieces(const Element& element, double begin, double end,
+                            std::vector<geometry::SpanCubic>& pieces);
 
   SegmentWriter& writer_;
   Limits limits_;
@@ -104,10 +107,12 @@ class Joiner : public geometry::RunSink {
   CornerTable passages_;
   double tolerance_ = 0.0;
   double feedrate_ = 0.0;
-  Element before_;
-  Element under_way_;
-  bool is_joined_ = false;  // the corner at the begin of under_way_ is rounded
-  std::vector<geometry::SpanCubic> pieces_;
+  std::array<Element, 2> elements_;
+  Element* before_ = &elements_[0];
+  Element* under_way_ = &elements_[1];
+  bool is_joined_ = false;                   // the corner at the begin of under_way_ is rounded
+  std::vector<geometry::SpanCubic> bump_;    // the path around the corner at hand
+  std::vector<geometry::SpanCubic> pieces_;  // of the body that is being sent
 };
 
 }  // namespace twin::path

@@ -71,6 +71,12 @@ void SegmentWriter::cubic(const geometry::SpanCubic& piece, double deviation) {
   append(rest, deviation);
 }
 
+void SegmentWriter::make_room(std::size_t pieces) {
+  if (pieces_.size() + pieces > kMostSpans) {
+    flush();
+  }
+}
+
 void SegmentWriter::append(const geometry::SpanCubic& piece, double deviation) {
   if (pieces_.empty()) {
     first_ = at_;

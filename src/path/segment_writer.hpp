@@ -51,6 +51,9 @@ class SegmentWriter {
 
   void add_block(const BlockDemand& block);
 
+  /// Makes room for pieces that belong together: none of the next `pieces` ends a curve by being one too
+  /// many. A corner that two curves share would be a bend of each, cut by its end.
+  void make_room(std::size_t pieces);
   /// Appends a cubic piece.
   /// @param deviation  no point of the piece or of the program is farther from the other [mm]
   void cubic(const geometry::SpanCubic& piece, double deviation);

@@ -230,6 +230,21 @@ TEST(SmoothBuilder, JointsOfNurbsAreRoundedWithinTheToleranceLikeAnyCorner) {
   }
 }
 
+// A curve that ended in the middle of a corner left half a bend to each of two curves, and half a bend counts as one
+// that lasts: every tenth corner of a zigzag was slow.
+TEST(SmoothBuilder, NoCurveEndsInTheMiddleOfACorner) {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 200; ++i) {
+    points.emplace_back(0.1 * ((i + 1) / 2), 0.1 * (i / 2), 0.0);
+  }
+  const auto segments = test::smooth(test::polyline(points, 50.0));
+  ASSERT_GT(segments.size(), 10U);
+  for (const Segment& segment : segments) {
+    EXPECT_LT(segment.begin.curvature.norm(), 1e-6);
+    EXPECT_LT(segment.end.curvature.norm(), 1e-6);
+  }
+}
+
 TEST(SmoothBuilder, ANurbsThatIsNotJoinedStaysAsItIs) {
   const auto block = cubic_block({0, 0, 0}, {2, 0, 0}, {4, 1, 0}, {6, 1, 0});
   const auto segments = test::smooth({block});

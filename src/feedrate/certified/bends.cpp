@@ -133,7 +133,7 @@ void Bends::add_peak(std::size_t first, std::size_t last, double turn) {
   if (at + 1 < last && intervals_[at + 1].curvature == most->curvature) {
     ++at;
   }
-  BendPeak peak{at, turn / most->curvature, std::numeric_limits<double>::infinity()};
+  BendPeak peak{at, first, last, turn / most->curvature, std::numeric_limits<double>::infinity()};
   if (!peaks_.empty()) {
     BendPeak& before = peaks_.back();
     peak.room = 0.5 * (intervals_[at].begin - intervals_[before.interval].begin);

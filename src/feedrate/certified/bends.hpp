@@ -26,8 +26,10 @@ struct BendInterval {
 /// The middle of a brief bend.
 struct BendPeak {
   std::size_t interval;  ///< begins there
-  double half;           ///< half of the bend's length [mm]
-  double room;           ///< half the way to the next bend of the curve [mm]
+  std::size_t first;     ///< the bend's intervals are [first, last)
+  std::size_t last;
+  double half;  ///< half of the bend's length [mm]
+  double room;  ///< half the way to the next bend of the curve [mm]
 };
 
 /// The bends of one curve. One bend ends and the next begins where the curvature has fallen to half

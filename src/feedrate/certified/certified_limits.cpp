@@ -5,22 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "feedrate/certified/path_derivatives.hpp"
 #include "feedrate/limits/axis_limits.hpp"
 #include "path/passage.hpp"
 
 namespace twin::feedrate {
 
-/// Derivatives of a curve by arc length, axis by axis.
-struct ByArcLength {
-  Vec3 first, second, third;
-};
-
 namespace {
-
-/// Bound of the third derivative, over what three samples of it give. It covers what a parabola
-/// through them does not see, and costs 1.6 % of the feedrate where the jerk of an axis binds;
-/// twice the margin would cost 1.6 % more.
-constexpr double kTwistMargin = 1.05;
 
 /// Periods in which zones are passed that become one, where axes have limits of their own: their rises
 /// cost more a zone. Corners of a nanometre would have thousands of zones otherwise; twice as much
@@ -31,6 +22,10 @@ constexpr double kBriefZone = 0.2;
 /// where the feedrate follows the limits, half of the difference is lost on average, and with twice
 /// the difference about half as many zones are planned.
 constexpr double kSameLimit = 1.001;
+
+/// Curvatures of a brief bend that share a zone where nothing reaches their limits. More makes fewer zones,
+/// and costs more where the bend is passed with acceleration after all.
+constexpr double kSameBend = 1.7;
 
 /// Parts of an arc, where axes have limits of their own: the share of each axis in the motion
 /// changes along it. With twice as many, half as much is lost by taking the worst of each part.
@@ -91,71 +86,6 @@ double swinging_feedrate(double curvature, double acceleration, double period) {
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
   return model;
-}
-
-ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
-  const double square = std::max(at.first.squaredNorm(), 1e-300);
-  const double u1 = 1.0 / std::sqrt(square);
-  const double mixed = at.first.dot(at.second);
-  const double u2 = -mixed / (square * square);
-  const double u3 = (4.0 * mixed * mixed / square - at.second.squaredNorm() - at.first.dot(third)) /
-                    (square * square) * u1;
-  return {u1 * at.first, (u1 * u1) * at.second + u2 * at.first,
-          (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
-}
-
-/// C''' of an arc. On a helix of radius r and rise 2 pi p, with c^2 = r^2 + p^2, it is the part of C'
-/// across the axis, of length r / c, times -1 / c^2; and |C''| = r / c^2. So with that part T
-///   C''' = -(|C''| / |T|)^2 T.
-Vec3 arc_twist(const geometry::Arc& arc, const path::PathPoint& at) {
-  const Vec3 across = arc.e1.dot(at.tangent) * arc.e1 + arc.e2.dot(at.tangent) * arc.e2;
-  const double square = across.squaredNorm();
-  if (!(square > 0.0)) {
-    return Vec3::Zero();
-  }
-  return -(at.curvature.squaredNorm() / square) * across;
-}
-
-/// Upper bounds of |C'|, |C''| and |C'''| between two places a and b, from their values at a, at b
-/// and at the midpoint c.
-///
-/// |C'''| may exceed its largest sample by the bulge of the parabola through the three samples,
-/// |C'''(c) - (C'''(a) + C'''(b)) / 2|. |C''| may exceed its largest sample by a quarter of the
-/// interval times that bound, and |C'| likewise by the bound of |C''|: no place is farther than a
-/// quarter of the interval from a sample.
-PathBounds bounds_between(const ByArcLength& a, const ByArcLength& c, const ByArcLength& b,
-                          double length) {
-  const auto largest = [](const Vec3& x, const Vec3& y, const Vec3& z) -> Vec3 {
-    return x.cwiseAbs().cwiseMax(y.cwiseAbs()).cwiseMax(z.cwiseAbs());
-  };
-  PathBounds bounds;
-  const Vec3 bulge = (c.third - 0.5 * (a.third + b.third)).cwiseAbs();
-  for (int i = 0; i < 3; ++i) {
-    const std::array<double, 3> signs{a.second[i] * a.third[i], c.second[i] * c.third[i],
-                                      b.second[i] * b.third[i]};
-    const auto [least, most] = std::minmax_element(signs.begin(), signs.end());
-    bounds.trend[i] = *least >= 0.0 ? 1.0 : *most <= 0.0 ? -1.0 : 0.0;
-  }
-  bounds.twist = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
-  bounds.curvature = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist;
-  bounds.tangent = (largest(a.first, c.first, b.first) + 0.25 * length * bounds.curvature)
-                       .cwiseMin(Vec3::Ones());
-  return bounds;
-}
-
-/// The same of the derivatives as vectors, in the first component. What C'' v a and C''' v^3 add to the
-/// vector of the jerk is no more than the sum of their lengths.
-PathBounds vector_bounds_between(const ByArcLength& a, const ByArcLength& c, const ByArcLength& b,
-                                 double length) {
-  const auto largest = [](const Vec3& x, const Vec3& y, const Vec3& z) {
-    return std::sqrt(std::max({x.squaredNorm(), y.squaredNorm(), z.squaredNorm()}));
-  };
-  PathBounds bounds;
-  const double bulge = (c.third - 0.5 * (a.third + b.third)).norm();
-  bounds.twist[0] = kTwistMargin * (largest(a.third, c.third, b.third) + bulge);
-  bounds.curvature[0] = largest(a.second, c.second, b.second) + 0.25 * length * bounds.twist[0];
-  bounds.tangent[0] = 1.0;
-  return bounds;
 }
 
 /// The jerk as a limit of the first component.
@@ -263,6 +193,50 @@ void CertifiedLimits::keep_axes(const path::FittedCurve& curve, const BendInterv
   put_on_steps(ramp_, zone);
 }
 
+/// Appends the zones of a brief bend, from its middle to both ends as few as are felt: beside the middle,
+/// where the limit is V, no feedrate is above V + J d^2 / (2 V^2) at the distance d, since it takes no longer
+/// than d / V to get there, from no acceleration. Limits that are higher are not told apart.
+void CertifiedLimits::append_brief_bend(const BendPeak& peak, double s0, double feedrate,
+                                        ZoneRow& row) {
+  const BendInterval& middle = bends_.intervals()[peak.interval];
+  const double valley = limit_at(middle, feedrate, On::kCurve);
+  const double rise = 0.5 * limits_.jerk / (valley * valley);
+  beside_.clear();
+  const auto add = [&](std::size_t first, const BendInterval& interval, double way) {
+    if (beside_.size() > first) {
+      Beside& last = beside_.back();
+      if (interval.curvature <= last.curvature &&
+          kSameBend * interval.curvature >= last.curvature &&
+          last.limit - valley >= rise * way * way) {
+        last.begin = std::min(last.begin, interval.begin);
+        last.end = std::max(last.end, interval.end);
+        return;
+      }
+    }
+    beside_.push_back({interval.begin, interval.end, interval.curvature,
+                       limit_at(interval, feedrate, On::kCurve)});
+  };
+  const auto append = [&](double begin, double end, double limit) {
+    row.append({s0 + begin, s0 + end, limit});
+  };
+  for (std::size_t i = peak.interval; i-- > peak.first;) {
+    const BendInterval& interval = bends_.intervals()[i];
+    add(0, interval, middle.begin - interval.begin);
+  }
+  const std::size_t before = beside_.size();
+  for (std::size_t i = before; i-- > 0;) {
+    append(beside_[i].begin, beside_[i].end, beside_[i].limit);
+  }
+  append(middle.begin, middle.end, valley);
+  for (std::size_t i = peak.interval + 1; i < peak.last; ++i) {
+    const BendInterval& interval = bends_.intervals()[i];
+    add(before, interval, interval.end - middle.end);
+  }
+  for (std::size_t i = before; i < beside_.size(); ++i) {
+    append(beside_[i].begin, beside_[i].end, beside_[i].limit);
+  }
+}
+
 void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                                    std::vector<LimitZone>& zones) {
   bends_.find(curve);
@@ -272,10 +246,16 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
                                : ZoneMerging{.same = kSameLimit});
   auto peak = bends_.peaks().begin();
   for (std::size_t i = 0; i < bends_.intervals().size(); ++i) {
+    if (!has_ramps && peak != bends_.peaks().end() && peak->first == i) {
+      append_brief_bend(*peak, s0, feedrate, row);
+      i = peak->last - 1;
+      ++peak;
+      continue;
+    }
     const BendInterval& interval = bends_.intervals()[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end,
                    limit_at(interval, feedrate, On::kCurve)};
-    if (has_axis_limits_ || has_vector_limits_) {
+    if (has_ramps) {
       keep_axes(curve, interval, zone);
     }
     if (has_dips && peak != bends_.peaks().end() && peak->interval == i) {
@@ -331,18 +311,22 @@ LimitZone CertifiedLimits::zone_of(const geometry::SpanCubic& piece, double u0, 
   const auto to = derivatives_at(u1);
   const ByArcLength begin = by_arc_length(from, third);
   const ByArcLength end = by_arc_length(to, third);
+  const double curvature_begin = begin.second.norm();
+  const double curvature_end = end.second.norm();
   const double length =  // Simpson's rule
       (u1 - u0) / 6.0 * (from.first.norm() + 4.0 * middle.first.norm() + to.first.norm());
   const BendInterval interval{.begin = 0.0,
                               .end = length,
                               .u0 = u0,
                               .u1 = u1,
-                              .curvature = std::max(begin.second.norm(), end.second.norm()),
-                              .turn = 0.5 * length * (begin.second.norm() + end.second.norm()),
+                              .curvature = std::max(curvature_begin, curvature_end),
+                              .turn = 0.5 * length * (curvature_begin + curvature_end),
                               .is_brief = is_brief};
   LimitZone zone{s0, s0 + length, limit_at(interval, feedrate, On::kCurve)};
-  keep_derivatives(begin, by_arc_length(middle, third), end,
-                   is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
+  if (has_axis_limits_ || has_vector_limits_) {
+    keep_derivatives(begin, by_arc_length(middle, third), end,
+                     is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
+  }
   return zone;
 }
 

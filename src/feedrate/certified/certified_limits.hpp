@@ -57,6 +57,14 @@ class CertifiedLimits final : public LimitSource {
   LimitZone zone_from(const path::PathPoint& at, double s0, double length, double feedrate) const;
 
  private:
+  /// A zone on one side of the middle of a brief bend.
+  struct Beside {
+    double begin;      // arc length from the curve's start [mm]
+    double end;        // [mm]
+    double curvature;  // at most [1/mm]
+    double limit;      // [mm/s]
+  };
+
   double any_turn_feedrate() const noexcept;
   double most_turn(const BendInterval& interval) const noexcept;
   double limit_at(const BendInterval& interval, double feedrate, On what) const;
@@ -66,6 +74,7 @@ class CertifiedLimits final : public LimitSource {
                         BendKind bend, LimitZone& zone) const;
   void keep_axes(const path::FittedCurve& curve, const BendInterval& interval,
                  LimitZone& zone) const;
+  void append_brief_bend(const BendPeak& peak, double s0, double feedrate, ZoneRow& row);
   void append_curve(const path::FittedCurve& curve, double s0, double feedrate,
                     std::vector<LimitZone>& zones);
   void append_arc(const path::Segment& segment, double s0, double feedrate,
@@ -81,6 +90,7 @@ class CertifiedLimits final : public LimitSource {
   bool has_vector_limits_;
   Limits vector_limits_;
   Bends bends_;  // of the curve that is being processed
+  std::vector<Beside> beside_;
 };
 
 }  // namespace twin::feedrate

@@ -18,6 +18,21 @@ constexpr std::size_t kStepsPerZone = 8;
 /// it would take to pass from one to the other is far below what a period shows.
 constexpr double kSamePlaceFeedrate = 1e-6;
 
+/// Share by which a limit is higher than another one, so that a summit that could come to it is faster
+/// than the other allows by more than rounding.
+constexpr double kClearlyHigher = 1e-6;
+
+/// Whether a rise can be left at a feedrate clearly within a distance.
+bool reaches_within(double distance, double v, Rise& rise) {
+  const double room = distance - 2.0 * kPlaceRounding;
+  while (!rise.is_complete() && rise.top() < v) {
+    if (rise.reached() > room || !extend(rise)) {
+      return false;
+    }
+  }
+  return rise.top() >= v && rise.exit_at(v).distance < room;
+}
+
 /// Whether a phase that rises passes a place faster than a limit.
 bool is_faster_rising(const Phase& phase, double s, double limit) {
   if (phase.v > limit * (1.0 + kFeedrateRounding)) {
@@ -51,6 +66,7 @@ bool is_faster_falling(const Phase& phase, double s, double limit) {
 bool Glide::plan(std::span<const LimitZone> zones, const Anchor& start, const Anchor& end,
                  const RampLimits& ramp) {
   zones_ = zones;
+  lows_.find(zones);
   ramp_ = ramp;
   ceiling_ = std::max(start.v, end.v);
   has_zone_ramps_ = false;
@@ -164,6 +180,10 @@ bool Glide::plan_leg(Leg leg) {
     release(leg);
     return std::abs(leg.a.v - leg.b.v) <= kSamePlaceFeedrate * (1.0 + leg.a.v);
   }
+  if (const auto valley = certain_valley(leg)) {
+    split(leg, *valley);
+    return true;
+  }
   for (std::size_t i = 0; i <= kStepsPerZone * (leg.last - leg.first) + 8; ++i) {
     climb(leg);
     const auto worst = find_violation(leg);
@@ -186,6 +206,25 @@ bool Glide::plan_leg(Leg leg) {
     }
   }
   return false;
+}
+
+/// The zone of the lowest limit of a leg, where it is sure to be a valley: limits beside it are higher,
+/// and both sides come to its limit with room to spare, so that the summit of the leg is too fast in it.
+std::optional<std::size_t> Glide::certain_valley(const Leg& leg) const {
+  if (leg.last - leg.first < 3) {
+    return std::nullopt;
+  }
+  const std::size_t index = lows_.lowest(leg.first, leg.last);
+  if (index == leg.first || index + 1 == leg.last) {
+    return std::nullopt;
+  }
+  const LimitZone& zone = zones_[index];
+  const double v = zone.limit;
+  const double beside = std::min({zones_[index - 1].limit, zones_[index + 1].limit, leg.cap});
+  const bool is_valley = v >= std::max(leg.a.v, leg.b.v) && beside > v * (1.0 + kClearlyHigher) &&
+                         reaches_within(zone.begin - leg.a.s, v, *leg.up) &&
+                         reaches_within(leg.b.s - zone.end, v, *leg.down);
+  return is_valley ? std::optional(index) : std::nullopt;
 }
 
 /// Finds the summit of a leg. Where its start is too fast for one, the descent to its end is taken
@@ -239,13 +278,15 @@ std::optional<std::size_t> Glide::lowest_violated(const Leg& leg) const {
   const auto off = [&](std::size_t i) { return i > middle ? i - middle : middle - i; };
   std::optional<std::size_t> worst;
   std::size_t phase = 0;
-  for (std::size_t i = leg.first; i < leg.last; ++i) {
+  const auto next = [&](std::size_t from) {
+    return lows_.next(from, leg.last, worst ? zones_[*worst].limit : climb_.peak);
+  };
+  for (std::size_t i = next(leg.first); i < leg.last; i = next(i + 1)) {
     const LimitZone& zone = zones_[i];
     if (zone.limit * (1.0 + kFeedrateRounding) >= climb_.peak) {
       continue;
     }
-    if (worst && (zone.limit > zones_[*worst].limit ||
-                  (zone.limit == zones_[*worst].limit && off(i) > off(*worst)))) {
+    if (worst && zone.limit == zones_[*worst].limit && off(i) > off(*worst)) {
       continue;
     }
     const double begin = std::max(zone.begin, leg.a.s);

@@ -11,6 +11,7 @@
 #include "feedrate/certified/ascent.hpp"
 #include "feedrate/certified/summit.hpp"
 #include "feedrate/certified/zone_ascent.hpp"
+#include "feedrate/certified/zone_lows.hpp"
 #include "feedrate/limits/zones.hpp"
 
 namespace twin::feedrate {
@@ -94,6 +95,7 @@ class Glide {
   double way_down(double from, double s, double v, Sense sense, std::size_t zone);
   bool plan_legs(const Anchor& start, const Anchor& end);
   bool plan_leg(Leg leg);
+  std::optional<std::size_t> certain_valley(const Leg& leg) const;
   void climb(const Leg& leg);
   std::optional<Violation> find_violation(const Leg& leg) const;
   std::optional<std::size_t> lowest_violated(const Leg& leg) const;
@@ -103,6 +105,7 @@ class Glide {
   void split(const Leg& leg, std::size_t zone);
 
   std::span<const LimitZone> zones_;
+  ZoneLows lows_;
   RampLimits ramp_{};
   bool has_zone_ramps_ = false;
   double ceiling_ = 0.0;

@@ -29,18 +29,19 @@ double guess(double b, double at_zero, double x_high, double at_high) noexcept {
 /// Feedrate between two others at which `missing`, the distance that is missing, is just below 0.
 /// Near an anchor of the feedrate v_least the distance is that of a ramp, (v_least + v) x / sqrt(J)
 /// with x = sqrt(v - v_least), which has no slope at v_least but is smooth in x.
-/// @param missing  callable as missing(v) -> value and slope; of the slope NaN where it is not known
+/// @param missing  callable as missing(v) -> value and slope
+/// @param at_least, at_high  missing at v_least and at high; no slope, NaN, where it is not known
 template <class Function>
 double highest_with_room(const Function& missing, double v_least, double at_least, double high,
-                         double at_high) noexcept {
-  if (!std::isnan(missing(high).slope)) {
+                         const ValueAndSlope& at_high) noexcept {
+  if (!std::isnan(at_high.slope)) {
     constexpr double kHalf = 0.05 * kDistanceRounding;
     const auto at = [&](double x) {
       const ValueAndSlope f = missing(v_least + x * x);
       return ValueAndSlope{f.value + kHalf, 2.0 * x * f.slope};
     };
     const double x_high = std::sqrt(high - v_least);
-    const double first = guess(2.0 * v_least, -at_least, x_high, at_high);
+    const double first = guess(2.0 * v_least, -at_least, x_high, at_high.value);
     const NewtonRoot root =
         bracketed_newton(at, 0.0, x_high, first, {.value = kHalf, .iterations = kJoinSteps});
     if (root.is_met) {
@@ -48,10 +49,18 @@ double highest_with_room(const Function& missing, double v_least, double at_leas
     }
   }
   return root_from_below([&](double v) { return missing(v).value; }, v_least, at_least, high,
-                         at_high, {0.1 * kDistanceRounding, 1e-14, 100, 3});
+                         at_high.value, {0.1 * kDistanceRounding, 1e-14, 100, 3});
 }
 
 }  // namespace
+
+bool extend(Rise& rise) {
+  const std::size_t phases = rise.phases().size();
+  const double reached = rise.reached();
+  const double top = rise.top();
+  rise.extend();
+  return rise.phases().size() != phases || rise.reached() > reached || rise.top() > top;
+}
 
 std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap) {
   Summit summit;
@@ -67,11 +76,8 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
     if (lower.is_complete() || v >= cap || (v >= v_least && room_at(v) <= 0.0)) {
       break;
     }
-    const std::size_t phases = lower.phases().size();
-    const double reached = lower.reached();
-    lower.extend();
-    if (lower.phases().size() == phases && lower.reached() <= reached && lower.top() <= v) {
-      break;  // rounding leaves nothing that it could be extended by
+    if (!extend(lower)) {
+      break;
     }
   }
   double high = std::min({up.top(), down.top(), cap});
@@ -86,6 +92,7 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
   if (room_high >= 0.0) {
     return summit;
   }
+  const ValueAndSlope at_high{-room_high, summit.up.slope + summit.down.slope};
   const double room_low = room_at(v_least);
   summit.v = v_least;
   if (room_low < 0.0) {
@@ -95,7 +102,7 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
     const double room = room_at(v);
     return ValueAndSlope{-room, summit.up.slope + summit.down.slope};
   };
-  summit.v = highest_with_room(missing_at, v_least, -room_low, high, -room_high);
+  summit.v = highest_with_room(missing_at, v_least, -room_low, high, at_high);
   return room_at(summit.v) >= 0.0 ? std::optional(summit) : std::nullopt;
 }
 

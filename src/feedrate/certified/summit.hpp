@@ -27,6 +27,10 @@ struct Summit {
   double length = 0.0;  ///< from anchor to anchor [mm]
 };
 
+/// Computes the next phase or phases of a rise.
+/// @returns false where rounding leaves nothing that it could be extended by
+bool extend(Rise& rise);
+
 /// Joins two ascents whose anchors are `length` apart; extends them as far as is needed.
 ///
 /// @param v_least  the higher of the two anchors' feedrates [mm/s]

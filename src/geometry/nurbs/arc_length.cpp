@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/root.hpp"
 #include "geometry/gauss_legendre.hpp"
@@ -22,9 +23,12 @@ constexpr int kMoreHalvings = 2000;
 /// R of Eq. (1). A larger R makes the quadrature more exact and needs shorter intervals: at R = 4
 /// its error would be 3e-9 of an interval, at R = 16 below the rounding.
 constexpr double kRadius = 8.0;
+constexpr double kEvenShare = 0.5;  // of q_0 in Eq. (1)
 
-/// R and the largest length of an interval with sparse samples [mm]; see the class.
+/// R, the share of q_0 in Eq. (1), and the largest length of an interval with sparse samples [mm]; see the
+/// class.
 constexpr double kSparseRadius = 4.0;
+constexpr double kSparseShare = 0.95;
 constexpr double kSparseLength = 0.03;
 
 /// Curvature of an interval that is straight [1/mm]: one sample is enough.
@@ -55,13 +59,28 @@ struct Tangent {
   }
 };
 
-/// Whether q varies little enough over an interval, Eq. (1) with a radius R.
-bool is_smooth(const Quartic& q, double radius) noexcept {
+/// q across the two halves of an interval: at x = (y - 1) / 2 and x = (y + 1) / 2, y = -1..1.
+std::pair<Quartic, Quartic> halves_of(const Quartic& q) noexcept {
+  const double even0 = q[0] + 0.25 * q[2] + 0.0625 * q[4];
+  const double odd0 = 0.5 * q[1] + 0.125 * q[3];
+  const double even1 = 0.5 * q[1] + 0.375 * q[3];
+  const double odd1 = 0.5 * q[2] + 0.25 * q[4];
+  const double even2 = 0.25 * q[2] + 0.375 * q[4];
+  const double odd2 = 0.375 * q[3];
+  const double even3 = 0.125 * q[3];
+  const double odd3 = 0.25 * q[4];
+  const double even4 = 0.0625 * q[4];
+  return {{even0 - odd0, even1 - odd1, even2 - odd2, even3 - odd3, even4},
+          {even0 + odd0, even1 + odd1, even2 + odd2, even3 + odd3, even4}};
+}
+
+/// Whether q varies little enough over an interval, Eq. (1) with a radius R, by a share of q_0.
+bool is_smooth(const Quartic& q, double radius, double share) noexcept {
   double sum = 0.0;
   for (std::size_t k = 4; k >= 1; --k) {
     sum = (sum + std::abs(q[k])) * radius;
   }
-  return sum <= 0.5 * q[0];
+  return sum <= share * q[0];
 }
 
 /// Whether an interval is shorter than a length [mm], however fast the curve is on it.
@@ -75,9 +94,9 @@ class Bending {
  public:
   Bending(const Tangent& c, const Quartic& q, double half) noexcept
       : q_(q),
-        a_(cross(c.d0, c.d1) / half),
+        a_(cross(c.d0, c.d1) * (1.0 / half)),
         b_(cross(c.d0, c.d2) * (2.0 / half)),
-        d_(cross(c.d1, c.d2) / half) {}
+        d_(cross(c.d1, c.d2) * (1.0 / half)) {}
 
   double at(double x) const noexcept {
     const double square = value(q_, x);
@@ -120,11 +139,11 @@ bool is_monotone(double a, double middle, double b) noexcept {
 /// Where an interval whose curvature is largest at its begin is sampled, from x = -1 on, and the
 /// weights of the five values of the speed for the arc length up to there. Each step is about as
 /// long as the distance from the begin.
-constexpr std::size_t kGraded = 3;
-constexpr gauss::Values<kGraded> kGradedPlaces = {-0.75, -0.5, 0.0};
+constexpr std::size_t kGraded = 4;
+constexpr gauss::Values<kGraded> kGradedPlaces = {-0.875, -0.75, -0.5, 0.0};
 constexpr std::array<gauss::Values<5>, kGraded> kGradedWeights = {
     gauss::partial_weights<5>(kGradedPlaces[0]), gauss::partial_weights<5>(kGradedPlaces[1]),
-    gauss::partial_weights<5>(kGradedPlaces[2])};
+    gauss::partial_weights<5>(kGradedPlaces[2]), gauss::partial_weights<5>(kGradedPlaces[3])};
 
 }  // namespace
 
@@ -152,24 +171,35 @@ struct ArcLength::Builder {
     return quarters;
   }
 
-  void add_cubic(const SpanCubic& cubic, double begin, double half, int depth) {
-    const Tangent tangent(cubic, begin + half - cubic.begin, half);
-    const Quartic q = tangent.square();
-    if (sampling == Sampling::kSparse && depth > 0 && add_sparse(cubic, begin, half, tangent, q)) {
+  /// Adds an interval of a cubic, divided where needed.
+  /// @param q  |C'|^2 across it
+  void add_cubic(const SpanCubic& cubic, double begin, double half, const Quartic& q, int depth) {
+    if (sampling == Sampling::kSparse && depth > 0 && add_sparse(cubic, begin, half, q)) {
       return;
     }
-    if (!is_smooth(q, kRadius) && !is_shorter(q, half, kLengthTolerance) && depth < kMaxDepth) {
-      add_cubic(cubic, begin, 0.5 * half, depth + 1);
-      add_cubic(cubic, begin + half, 0.5 * half, depth + 1);
+    if (!is_smooth(q, kRadius, kEvenShare) && !is_shorter(q, half, kLengthTolerance) &&
+        depth < kMaxDepth) {
+      const auto [left, right] = halves_of(q);
+      add_cubic(cubic, begin, 0.5 * half, left, depth + 1);
+      add_cubic(cubic, begin + half, 0.5 * half, right, depth + 1);
       return;
     }
     const double from = table.length_;
     const std::array<double, 4> s = append(begin, half, q, speeds_of(q));
+    if (samples == nullptr) {
+      return;
+    }
+    const Tangent tangent(cubic, begin + half - cubic.begin, half);
     if (sampling == Sampling::kSparse && is_straight(tangent, q, half)) {
       samples->push_back({begin, from, 0.0});
-    } else if (samples != nullptr) {
+    } else {
       sample_cubic(tangent, q, begin, half, s, *samples);
     }
+  }
+
+  void add_cubic(const SpanCubic& cubic, double begin, double half) {
+    const Tangent tangent(cubic, begin + half - cubic.begin, half);
+    add_cubic(cubic, begin, half, tangent.square(), 0);
   }
 
   static gauss::Values<5> speeds_of(const Quartic& q) noexcept {
@@ -183,17 +213,17 @@ struct ArcLength::Builder {
   /// Adds a short interval on which the curvature rises or falls, with few samples. At the end of
   /// the span where it is largest they are close.
   /// @returns false, with nothing done, where it is none
-  bool add_sparse(const SpanCubic& cubic, double begin, double half, const Tangent& tangent,
-                  const Quartic& q) {
-    if (!is_smooth(q, kSparseRadius) || !is_shorter(q, half, kSparseLength)) {
+  bool add_sparse(const SpanCubic& cubic, double begin, double half, const Quartic& q) {
+    if (!is_smooth(q, kSparseRadius, kSparseShare) || !is_shorter(q, half, kSparseLength)) {
       return false;
     }
-    const Bending bending(tangent, q, half);
+    const Bending bending({cubic, begin + half - cubic.begin, half}, q, half);
     const double first = begin > cubic.begin && begin == known_at ? known : bending.at(-1.0);
     const double last = bending.at(1.0);
     known_at = begin + 2.0 * half;
     known = last;
-    if (!is_monotone(first, bending.at(0.0), last)) {
+    const double centre = bending.at(0.0);
+    if (!is_monotone(first, centre, last)) {
       return false;
     }
     const gauss::Values<5> speeds = speeds_of(q);
@@ -203,6 +233,9 @@ struct ArcLength::Builder {
     samples->push_back({begin, s, first});
     const bool falls = first > last;
     if (falls ? begin > cubic.begin : begin + 2.5 * half < cubic.end) {
+      samples->push_back({begin + half,
+                          s + half * gauss::weighted_sum(FivePoints::kQuarterWeights[1], speeds),
+                          centre});
       return true;
     }
     for (std::size_t i = 0; i < kGraded; ++i) {
@@ -272,7 +305,7 @@ void ArcLength::build(const Curve& curve, std::vector<CurvatureSample>* samples,
       continue;
     }
     if (is_cubic_) {
-      builder.add_cubic(span_cubic(curve, span), u[span], half, 0);
+      builder.add_cubic(span_cubic(curve, span), u[span], half);
     } else {
       builder.add_any(span, u[span], half, builder.speeds_on(span, u[span], half), 0);
     }

@@ -37,8 +37,8 @@ enum class Sampling : std::uint8_t {
 ///   64/15 sqrt(3/2 q_0) r^(-2n) / (1 - r^-2),                                                  (2)
 /// which is 2.5e-12 of the length of the interval.
 ///
-/// With sparse samples, R = 4 is enough for an interval that is shorter than 0.03 mm, where (2) is
-/// 3e-9 of the length, which is 1e-10 mm. Such an interval is taken only where curvature rises or
+/// With sparse samples, R = 4 and a sum of up to 0.95 q_0 are enough for an interval that is shorter than
+/// 0.03 mm: with sqrt(1.95 q_0) in (2) it is 4e-9 of the length, which is 1e-10 mm. Such an interval is taken only where curvature rises or
 /// falls over it: the parabola through the curvature at its ends and in its middle has no peak
 /// within it. Then the larger curvature of two neighbouring samples bounds that between them.
 ///

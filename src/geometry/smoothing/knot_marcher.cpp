@@ -51,6 +51,7 @@ void KnotMarcher::begin_at(double s, std::size_t block) {
   knots_.push_back({s, block});
   last_width_ = 0.0;
   spans_to_grow_ = 0;
+  kept_.fill({});
 }
 
 double KnotMarcher::reflected(std::ptrdiff_t j) const noexcept {
@@ -95,13 +96,38 @@ double KnotMarcher::capped_by_blocks(double width, const KnownRun& run) const no
   return width;
 }
 
+PathMoments KnotMarcher::moments(const Stretch& stretch, std::size_t block, double begin,
+                                 double end) noexcept {
+  for (const PathMoments& kept : kept_) {
+    if (kept.begin() == begin && kept.end() == end) {
+      return kept;
+    }
+  }
+  const PathMoments moments(stretch, block, begin, end);
+  if (begin >= stretch.begin &&
+      end <= stretch.end) {  // what is mirrored changes when more is known
+    kept_[next_kept_] = moments;
+    next_kept_ = (next_kept_ + 1) % kKept;
+  }
+  return moments;
+}
+
 /// Mean square of what the nearest cubic leaves of the polygon around the next span, as a multiple
 /// of what is allowed; infinite where the polygon turns too far.
-double KnotMarcher::residual(double width, const Stretch& stretch) const noexcept {
+double KnotMarcher::residual(double width, const Stretch& stretch) noexcept {
   const Knot& at = knots_.back();
   const bool has_begin = knots_.begin_index() == 0;
-  const double begin = has_begin ? at.s - width : std::max(at.s - width, knots_.front().s);
-  const LocalCubic cubic(stretch, at.block, begin, at.s + 2.0 * width);
+  double begin = has_begin ? at.s - width : std::max(at.s - width, knots_.front().s);
+  std::size_t block = at.block;
+  if (width == last_width_) {  // the span before the knot
+    begin = knots_[last() - 1].s;
+    block = knots_[last() - 1].block;
+  }
+  const double middle = at.s + width;
+  const std::array<PathMoments, 3> parts{moments(stretch, block, begin, at.s),
+                                         moments(stretch, at.block, at.s, middle),
+                                         moments(stretch, at.block, middle, middle + width)};
+  const LocalCubic cubic(begin < at.s ? std::span(parts) : std::span(parts).subspan(1));
   if (cubic.turn() > 3.0 * kMostTurn && cubic.blocks() > 3 * kFewestBlocks) {
     return std::numeric_limits<double>::infinity();
   }
@@ -157,6 +183,7 @@ void KnotMarcher::shorten(std::size_t span) noexcept {
 void KnotMarcher::truncate(std::size_t last) {
   knots_.truncate(last + 1);
   spans_to_grow_ = 0;
+  kept_.fill({});  // the path changes where a run is cut
   last_width_ = last > 0 ? knots_[last].s - knots_[last - 1].s : 0.0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -73,6 +74,11 @@ class KnotMarcher {
   /// Index of the first knot in memory.
   std::size_t first() const noexcept { return knots_.begin_index(); }
 
+  /// Moments of the run's path over an interval, which are kept for a while: those of the last few
+  /// intervals are not computed anew.
+  /// @param block  index of a block near its begin
+  PathMoments moments(const Stretch& stretch, std::size_t block, double begin, double end) noexcept;
+
   /// Removes the knots after index `last`.
   void truncate(std::size_t last);
   /// Removes the knots before index j, which are not needed any more.
@@ -86,10 +92,14 @@ class KnotMarcher {
 
   double longest_span() const noexcept;
   double capped_by_blocks(double width, const KnownRun& run) const noexcept;
-  double residual(double width, const Stretch& stretch) const noexcept;
+  double residual(double width, const Stretch& stretch) noexcept;
   void schedule_growth(double residual) noexcept;
 
+  static constexpr std::size_t kKept = 8;  // moments: a window has 3 parts, and some spans fail
+
   SlidingVector<Knot> knots_;
+  std::array<PathMoments, kKept> kept_;
+  std::size_t next_kept_ = 0;
   double tolerance_ = 0.0;
   double last_width_ = 0.0;                               // length of the latest span, or 0 [mm]
   int spans_to_grow_ = 0;                                 // spans until a longer one is tried

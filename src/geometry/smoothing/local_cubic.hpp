@@ -1,43 +1,28 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <span>
 
 #include "core/vec.hpp"
-#include "geometry/smoothing/polygon.hpp"
+#include "geometry/smoothing/path_moments.hpp"
 
 namespace twin::geometry {
-
-/// A part of a polygon: its blocks `first` to `last`.
-struct Stretch {
-  const Polygon* polygon = nullptr;
-  std::size_t first = 0;  ///< index of the first block
-  std::size_t last = 0;   ///< index of the last block, which belongs to the stretch
-  double begin = 0.0;     ///< arc length of vertex `first` [mm]
-  double end = 0.0;       ///< arc length of vertex `last` + 1 [mm]
-};
 
 /// The cubic that fits the smooth path A(s) of a polygon best over an interval of arc length: the
 /// mean square of their distance is smallest.
 ///
 /// With x = -1..1 across the interval and Legendre's polynomials L_k,
 ///   p(x) = sum_k c_k L_k(x),   c_k = (2 k + 1) / 2 integral of A(s(x)) L_k(x) dx,   k = 0..3.  (1)
-/// Each integral is a sum over the blocks. On the part of a block with its middle at x = a and half
-/// width d, A(s) is the parabola A = m + d' y + b (1/3 - y^2), y = -1..1, whose moments are
-///   1/(2d) integral of A x^k dx = m                                                       | k = 0
-///                                 a m + (d/3) d'                                          | k = 1
-///                                 (a^2 + d^2/3) m + (2 a d/3) d' - (4/45) d^2 b           | k = 2
-///                                 (a^3 + a d^2) m + (a^2 d + d^3/5) d' - (4/15) a d^2 b   | k = 3,
-/// so (1) is exact, and each block costs the same time. Beyond an end of the stretch, A(s) goes on
-/// as its own point reflection about that end, A(s_end + x) = 2 A_end - A(s_end - x).
+/// The integrals come from the moments of A(s) over parts of the interval (PathMoments). A part of half
+/// width d_i around x = a_i with the moments m_k about the origin O_i adds to those about O
+///   d_i sum_j binomial(k, j) a_i^(k-j) d_i^j (m_j + (O_i - O) e_j),   e = (2, 0, 2/3, 0).        (2)
+/// Neighbouring intervals, whose cubics are wanted one after the other, share such parts.
 ///
 /// @note Real-time safe.
 class LocalCubic {
  public:
-  /// @param stretch     the part of the polygon that is known
-  /// @param block       index of a block near the begin of the interval, where the search starts
-  /// @param begin, end  the interval of arc length [mm]
-  LocalCubic(const Stretch& stretch, std::size_t block, double begin, double end) noexcept;
+  /// @param parts  of the interval, one after the other, one at least
+  explicit LocalCubic(std::span<const PathMoments> parts) noexcept;
 
   /// Mean square of the distance between cubic and path over the interval [mm^2].
   double mean_square() const noexcept { return mean_square_; }
@@ -58,14 +43,11 @@ class LocalCubic {
   int blocks() const noexcept { return blocks_; }
 
  private:
-  void add(double from, const Vec3& start, double to, const Vec3& end, const Vec3& bulge) noexcept;
-  void add_blocks(const Stretch& stretch, std::size_t block, double from, double to,
-                  double mirror) noexcept;
+  void add(const PathMoments& part) noexcept;
   void finish() noexcept;
 
   double centre_;
   double half_;
-  double inverse_;  // 1 / half_
   Vec3 origin_;
   std::array<Vec3, 4> moment_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   double square_ = 0.0;

@@ -37,7 +37,10 @@ void QuasiInterpolant::begin_at(const Vec3& at) {
 void QuasiInterpolant::extend(const KnownRun& run) {
   const std::size_t k = knots_.last();
   if (k >= 2) {
-    const LocalCubic cubic(run.stretch, knots_.block(k - 2), knots_.at(k - 2), knots_.at(k));
+    const std::array<PathMoments, 2> parts{
+        knots_.moments(run.stretch, knots_.block(k - 2), knots_.at(k - 2), knots_.at(k - 1)),
+        knots_.moments(run.stretch, knots_.block(k - 1), knots_.at(k - 1), knots_.at(k))};
+    const LocalCubic cubic(parts);
     const Vec3 point = cubic.blossom(knots_.at(k - 1));
     if (k == 2) {
       begin_reflected(begin_, point, raw_);

@@ -31,7 +31,7 @@ inline constexpr std::size_t kReach = 5;
 class QuasiInterpolant {
  public:
   /// @param knots  of the same run; they outlive this object
-  explicit QuasiInterpolant(const KnotMarcher& knots) : knots_(knots) {}
+  explicit QuasiInterpolant(KnotMarcher& knots) : knots_(knots) {}
 
   /// Begins a run at a point [mm].
   void begin_at(const Vec3& at);
@@ -53,7 +53,7 @@ class QuasiInterpolant {
   Vec3 refitted(std::size_t i) const noexcept;
   SpanCubic cubic_of(const SlidingVector<Vec3>& points, std::size_t span) const noexcept;
 
-  const KnotMarcher& knots_;
+  KnotMarcher& knots_;
   Vec3 begin_ = Vec3::Zero();   // first point of the run [mm]
   SlidingVector<Vec3> raw_;     // Q_{j-3} at index j
   SlidingVector<Vec3> points_;  // P_{j-3} at index j

@@ -28,6 +28,11 @@ Stretch all_of(const Polygon& polygon) {
           polygon[polygon.last()].s};
 }
 
+LocalCubic over(const Polygon& polygon, std::size_t block, double begin, double end) {
+  const std::array<PathMoments, 1> whole{PathMoments(all_of(polygon), block, begin, end)};
+  return LocalCubic(whole);
+}
+
 /// The path and, beyond its ends, its point reflection.
 Vec3 path_at(const Stretch& all, double s) {
   const Polygon& polygon = *all.polygon;
@@ -43,8 +48,9 @@ Vec3 path_at(const Stretch& all, double s) {
 TEST(LocalCubic, IsTheLeastSquaresCubicOfManySamples) {
   const Polygon polygon = walk(3, 30);
   const Stretch all = all_of(polygon);
-  for (const auto& [begin, end] :
-       {std::pair(6.0, 9.0), std::pair(3.0, 6.5), std::pair(all.end - 2.0, all.end + 1.0)}) {
+  for (const auto& [begin, end, part] : {std::tuple(6.0, 9.0, 1.0 / 3.0), std::tuple(3.0, 6.5, 0.5),
+                                         std::tuple(all.end - 2.0, all.end + 1.0, 0.6),
+                                         std::tuple(all.end - 2.0, all.end + 1.0, 0.9)}) {
     constexpr int kSamples = 20000;
     Eigen::MatrixXd a(kSamples, 4);
     Eigen::MatrixXd b(kSamples, 3);
@@ -57,10 +63,28 @@ TEST(LocalCubic, IsTheLeastSquaresCubicOfManySamples) {
     const double middle = 0.3;  // blossom of 1, x, x^2, x^3 at (-1, 0.3, 1)
     const Vec3 blossom = c.row(0) + middle / 3.0 * c.row(1) - c.row(2) / 3.0 - middle * c.row(3);
     const double rest = (a.lazyProduct(c) - b).squaredNorm() / kSamples;
-    const LocalCubic cubic(all, polygon.block_at(begin, 0, 0, all.last), begin, end);
+    const std::size_t block = polygon.block_at(begin, 0, 0, all.last);
+    const double border = begin + part * (end - begin);
+    const std::array<PathMoments, 2> parts{PathMoments(all, block, begin, border),
+                                           PathMoments(all, block, border, end)};
+    const LocalCubic cubic(parts);
     EXPECT_LT((cubic.blossom(begin + 0.65 * (end - begin)) - blossom).norm(), 1e-6);
     EXPECT_NEAR(cubic.mean_square(), rest, 1e-6 * rest + 1e-10);
   }
+}
+
+TEST(LocalCubic, CountsABlockOnceThatTwoPartsShare) {
+  const Polygon polygon = walk(5, 30);
+  const Stretch all = all_of(polygon);
+  const double begin = polygon[4].s;
+  const double end = polygon[9].s;
+  for (const double border : {polygon[6].s, 0.5 * (polygon[6].s + polygon[7].s)}) {
+    const std::array<PathMoments, 2> parts{PathMoments(all, 4, begin, border),
+                                           PathMoments(all, 4, border, end)};
+    EXPECT_EQ(LocalCubic(parts).blocks(), 5);
+  }
+  EXPECT_EQ(over(polygon, 4, begin, end).blocks(), 5);
+  EXPECT_EQ(over(polygon, 4, begin + 0.01, end + 0.01).blocks(), 6);
 }
 
 TEST(LocalCubic, LeavesNothingOfAStraightLine) {
@@ -69,7 +93,7 @@ TEST(LocalCubic, LeavesNothingOfAStraightLine) {
   for (int i = 1; i < 50; ++i) {
     polygon.push({0.1 * i, 0.2 * i, 0.0});
   }
-  const LocalCubic cubic(all_of(polygon), 3, 0.7, 5.0);
+  const LocalCubic cubic = over(polygon, 3, 0.7, 5.0);
   EXPECT_LT(cubic.mean_square(), 1e-14);
   EXPECT_LT((cubic.blossom(2.0) - (0.7 + 2.0 + 5.0) / 3.0 * polygon[0].direction).norm(), 1e-12);
   EXPECT_NEAR(cubic.turn(), 0.0, 1e-12);
@@ -81,7 +105,7 @@ TEST(LocalCubic, KnowsHowFarACircleTurns) {
   for (int i = 1; i < 200; ++i) {
     polygon.push({5.0 * std::cos(0.01 * i), 5.0 * std::sin(0.01 * i), 0.0});
   }
-  const LocalCubic cubic(all_of(polygon), 50, 3.0, 6.0);
+  const LocalCubic cubic = over(polygon, 50, 3.0, 6.0);
   EXPECT_NEAR(cubic.turn(), 3.0 / 5.0, 0.02);
 }
 
