@@ -214,6 +214,18 @@ bool has_its_end(const fs::path& picture) {
   return last.find(end) != std::string::npos;
 }
 
+/// Puts the beginning of 1970 for the time of drawing, which a PDF tells: the same run, the same bytes.
+void take_date_out(const fs::path& pdf) {
+  constexpr std::string_view key = "/CreationDate (D:";
+  std::fstream file(pdf, std::ios::binary | std::ios::in | std::ios::out);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (const std::size_t at = text.find(key); at != std::string::npos) {
+    file.clear();
+    file.seekp(static_cast<std::streamoff>(at + key.size()));
+    file << "19700101000000";
+  }
+}
+
 /// Names of the pictures that a script makes.
 std::vector<std::string> pictures_of(const Script& script) {
   return {script.name + ".png", script.name + ".svg", script.name + ".pdf"};
@@ -291,6 +303,11 @@ Expected<std::vector<fs::path>> draw(const fs::path& folder, std::span<const Scr
   TWIN_CHECK(link_data(folder, workshop.folder()));
   TWIN_CHECK(run_gnuplot(workshop.folder(), drawings));
   TWIN_CHECK(check_pictures(workshop.folder(), names));
+  for (const std::string& name : names) {
+    if (name.ends_with(".pdf")) {
+      take_date_out(workshop.folder() / name);
+    }
+  }
   TWIN_CHECK(workshop.deliver(names));
   return pictures;
 }

@@ -67,6 +67,7 @@ TEST(Figures, APaperHasAPdfOfOneColumnWithoutTitle) {
   const std::size_t box = text.find("/MediaBox [ 0 0 ");
   ASSERT_NE(box, std::string::npos);
   EXPECT_NEAR(std::strtod(text.c_str() + box + 16, nullptr), 86.0 / 25.4 * 72.0, 1.5);  // [points]
+  EXPECT_NE(text.find("/CreationDate (D:19700101000000"), std::string::npos);
   // The next drawing is not for a paper, and leaves no PDF of this one.
   ASSERT_TRUE(write_figures({directory.path(), "trefoil", {}, true}));
   EXPECT_FALSE(fs::exists(pdf));
