@@ -137,11 +137,12 @@ double Glide::way_down(double from, double s, double v, Sense sense, std::size_t
     return ramp_distance(from, v, ramp_);
   }
   Rise* rise = rise_from({s, v}, sense, zone);
-  while (!rise->is_complete() && rise->top() < from) {
+  const double least = from * (1.0 - kFormulaRounding);
+  while (!rise->is_complete() && rise->top() < least) {
     rise->extend();
   }
-  const double distance =
-      rise->top() < from ? std::numeric_limits<double>::infinity() : rise->exit_at(from).distance;
+  const double distance = rise->top() < least ? std::numeric_limits<double>::infinity()
+                                              : rise->exit_at(std::min(from, rise->top())).distance;
   free_.push_back(rise);
   return distance;
 }
