@@ -70,15 +70,7 @@ TEST(LookAheadCertified, AHigherJerkIsNotSlowerWhereItReachesTheAccelerationInAF
   double before = std::numeric_limits<double>::infinity();
   for (const double share : {0.15, 0.24, 0.26, 0.39, 0.6, 1.0, 100.0}) {  // J T / A
     settings.limits.jerk = share * settings.limits.acceleration / settings.period;
-    std::vector<path::Segment> segments;
-    path::SmoothBuilder builder(
-        settings.path, settings.model, settings.limits,
-        [&](path::Segment&& segment) { segments.push_back(std::move(segment)); });
-    for (const gcode::Block& block : test::polyline(points, 100.0)) {
-      builder.push(block);
-    }
-    builder.finish();
-    const auto planned = plan(segments, settings);
+    const auto planned = plan(test::polyline(points, 100.0), settings);
     EXPECT_LE(planned.time, before * kSlower) << share;
     EXPECT_EQ(planned.fallbacks, 0) << share;
     before = planned.time;
