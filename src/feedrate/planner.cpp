@@ -81,8 +81,7 @@ class CertifiedPlanner final : public PlannerParts {
     return std::make_unique<CertifiedLimits>(of_.limits, of_.model, of_.path, of_.period);
   }
   std::unique_ptr<WindowPlanner> make_window_planner() const override {
-    const bool is_even = !has_axis_limits(of_.limits) && of_.limits.jerk_of == JerkOf::kPath &&
-                         !CertifiedLimits::has_swings(of_.limits, of_.period);
+    const bool is_even = !has_axis_limits(of_.limits) && of_.limits.jerk_of == JerkOf::kPath;
     const auto ramps = is_even ? GlidePlanner::Ramps::kOfMachine : GlidePlanner::Ramps::kOfZones;
     return std::make_unique<GlidePlanner>(of_.ramp(), ramps, of_.corner_reach(), of_.look_ahead());
   }

@@ -56,27 +56,6 @@ TEST(LookAheadCertified, RandomProgramsArePlannedWholeWithinOtherLimits) {
 /// Beyond this a path is slower: what the method loses by following closed forms.
 constexpr double kSlower = 1.001;
 
-// From J T = A / 4 on bends were passed so slowly that the acceleration could swing from +A to -A within a
-// period: a program took 1.17 times as long with 1.5 J. Now a bend has no more jerk than that.
-TEST(LookAheadCertified, AHigherJerkIsNotSlowerWhereItReachesTheAccelerationInAFewPeriods) {
-  std::vector<Vec3> points{{0, 0, 0}};
-  for (int i = 1; i <= 30; ++i) {
-    points.push_back(points.back() + (i % 2 == 0 ? Vec3(1, 0.2, 0) : Vec3(0.2, 1, 0)));
-  }
-  PlanSettings settings = certified();
-  settings.period = 4e-3;
-  settings.limits.acceleration = 500.0;
-  settings.model.corner_error = 0.05;
-  double before = std::numeric_limits<double>::infinity();
-  for (const double share : {0.15, 0.24, 0.26, 0.39, 0.6, 1.0, 100.0}) {  // J T / A
-    settings.limits.jerk = share * settings.limits.acceleration / settings.period;
-    const auto planned = plan(test::polyline(points, 100.0), settings);
-    EXPECT_LE(planned.time, before * kSlower) << share;
-    EXPECT_EQ(planned.fallbacks, 0) << share;
-    before = planned.time;
-  }
-}
-
 TEST(LookAheadCertified, AHigherLimitNeverMakesAPathSlower) {
   std::mt19937 random(6);
   for (int i = 0; i < 40; ++i) {

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "feedrate/certified/by_arc_length.hpp"
 #include "feedrate/limits/axis_limits.hpp"
 #include "path/passage.hpp"
 
 namespace twin::feedrate {
+
+/// Derivatives of a curve by arc length, axis by axis.
+struct ByArcLength {
+  Vec3 first, second, third;
+};
 
 namespace {
 
@@ -43,9 +47,9 @@ constexpr double kRest = 0.25;
 /// as much leaves a jerk in their set points that nobody planned.
 constexpr double kWindingTurn = 0.4;
 
-/// Turn within a period from which the acceleration must not swing (kSwing): the tangential
-/// acceleration before and after the middle of the bend has a part square to the path, which grows
-/// with the turn.
+/// The same in any bend, where the acceleration can swing within a period (kSwing). Then the
+/// tangential acceleration before and after the middle of the bend has a part square to the path,
+/// which grows with the turn.
 constexpr double kSwingingTurn = 0.2;
 
 /// Feedrate of a turn back, as a share of A T: it changes the velocity by 2 v. Without this floor,
@@ -53,8 +57,7 @@ constexpr double kSwingingTurn = 0.2;
 constexpr double kAnyTurn = 0.25;
 
 /// Share of A by which the acceleration changes in a period, J T / A, from which it swings. Below,
-/// the part of the tangential acceleration is small. A bend that is passed faster than that part allows has
-/// so much less jerk; a lower feedrate in its place would make a higher J slower.
+/// the part of the tangential acceleration is small.
 constexpr double kSwing = 0.25;
 
 /// Ratios of the accelerations and of the jerks that are told apart where they change along a curve.
@@ -88,6 +91,29 @@ double swinging_feedrate(double curvature, double acceleration, double period) {
 PlanningModel with_circular_error(PlanningModel model, double error) {
   model.circular_error = std::max(model.circular_error, error);
   return model;
+}
+
+ByArcLength by_arc_length(const geometry::Derivatives& at, const Vec3& third) {
+  const double square = std::max(at.first.squaredNorm(), 1e-300);
+  const double u1 = 1.0 / std::sqrt(square);
+  const double mixed = at.first.dot(at.second);
+  const double u2 = -mixed / (square * square);
+  const double u3 = (4.0 * mixed * mixed / square - at.second.squaredNorm() - at.first.dot(third)) /
+                    (square * square) * u1;
+  return {u1 * at.first, (u1 * u1) * at.second + u2 * at.first,
+          (u1 * u1 * u1) * third + (3.0 * u1 * u2) * at.second + u3 * at.first};
+}
+
+/// C''' of an arc. On a helix of radius r and rise 2 pi p, with c^2 = r^2 + p^2, it is the part of C'
+/// across the axis, of length r / c, times -1 / c^2; and |C''| = r / c^2. So with that part T
+///   C''' = -(|C''| / |T|)^2 T.
+Vec3 arc_twist(const geometry::Arc& arc, const path::PathPoint& at) {
+  const Vec3 across = arc.e1.dot(at.tangent) * arc.e1 + arc.e2.dot(at.tangent) * arc.e2;
+  const double square = across.squaredNorm();
+  if (!(square > 0.0)) {
+    return Vec3::Zero();
+  }
+  return -(at.curvature.squaredNorm() / square) * across;
 }
 
 /// Upper bounds of |C'|, |C''| and |C'''| between two places a and b, from their values at a, at b
@@ -161,16 +187,12 @@ double CertifiedLimits::any_turn_feedrate() const noexcept {
   return kAnyTurn * period_ * std::min(limits_.acceleration, limits_.jerk * period_);
 }
 
-/// Lowers the jerk of a zone in which the acceleration could swing within a period.
-void CertifiedLimits::keep_from_swinging(double curvature, LimitZone& zone) const noexcept {
-  const double steady = kSwing * limits_.acceleration / period_;
-  const double calm =
-      std::max(std::min(kSwingingTurn / (curvature * period_),
-                        swinging_feedrate(curvature, limits_.acceleration, period_)),
-               any_turn_feedrate());
-  if (limits_.jerk > steady && curvature > 0.0 && zone.limit > calm) {
-    zone.jerk = std::min(zone.jerk, steady);
+/// Largest turn within a period [rad].
+double CertifiedLimits::most_turn(const BendInterval& interval) const noexcept {
+  if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
+    return kSwingingTurn;
   }
+  return interval.is_winding ? kWindingTurn : std::numeric_limits<double>::infinity();
 }
 
 double CertifiedLimits::limit_at(const BendInterval& interval, double feedrate, On what) const {
@@ -180,9 +202,13 @@ double CertifiedLimits::limit_at(const BendInterval& interval, double feedrate, 
   double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
-    if (interval.is_winding) {
+    if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
       limit =
-          std::min(limit, std::max(kWindingTurn / (at.curvature * period_), any_turn_feedrate()));
+          std::min(limit, std::max(swinging_feedrate(at.curvature, limits_.acceleration, period_),
+                                   any_turn_feedrate()));
+    }
+    if (const double turn = most_turn(interval); std::isfinite(turn)) {
+      limit = std::min(limit, std::max(turn / (at.curvature * period_), any_turn_feedrate()));
     }
   }
   return limit;
@@ -241,7 +267,7 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
                                    std::vector<LimitZone>& zones) {
   bends_.find(curve);
   const bool has_dips = has_vector_limits_ || (limits_.axis_jerk.array() > 0.0).any();
-  const bool has_ramps = has_axis_limits_ || has_vector_limits_ || has_swings(limits_, period_);
+  const bool has_ramps = has_axis_limits_ || has_vector_limits_;
   ZoneRow row(zones, has_ramps ? ZoneMerging{.brief = kBriefZone * period_}
                                : ZoneMerging{.same = kSameLimit});
   auto peak = bends_.peaks().begin();
@@ -249,7 +275,6 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
     const BendInterval& interval = bends_.intervals()[i];
     LimitZone zone{s0 + interval.begin, s0 + interval.end,
                    limit_at(interval, feedrate, On::kCurve)};
-    keep_from_swinging(interval.curvature, zone);
     if (has_axis_limits_ || has_vector_limits_) {
       keep_axes(curve, interval, zone);
     }
@@ -277,7 +302,6 @@ void CertifiedLimits::append_arc(const path::Segment& segment, double s0, double
     const double begin = segment.length * i / parts;
     const double end = i + 1 == parts ? segment.length : segment.length * (i + 1) / parts;
     LimitZone zone{s0 + begin, s0 + end, limit};
-    keep_from_swinging(whole.curvature, zone);
     if ((has_axis_limits_ || has_vector_limits_) && segment.length > 0.0) {
       const auto at = [&](double s) -> ByArcLength {
         const path::PathPoint p = arc != nullptr ? path::point_at(*arc, s) : segment.begin;
@@ -317,7 +341,6 @@ LimitZone CertifiedLimits::zone_of(const geometry::SpanCubic& piece, double u0, 
                               .turn = 0.5 * length * (begin.second.norm() + end.second.norm()),
                               .is_brief = is_brief};
   LimitZone zone{s0, s0 + length, limit_at(interval, feedrate, On::kCurve)};
-  keep_from_swinging(interval.curvature, zone);
   keep_derivatives(begin, by_arc_length(middle, third), end,
                    is_brief ? BendKind::kBrief : BendKind::kLasting, zone);
   return zone;
@@ -328,7 +351,6 @@ LimitZone CertifiedLimits::zone_from(const path::PathPoint& at, double s0, doubl
   const BendInterval interval{0.0, length, 0.0, 1.0, at.curvature.norm()};
   const ByArcLength place{at.tangent, at.curvature, Vec3::Zero()};
   LimitZone zone{s0, s0 + length, limit_at(interval, feedrate, On::kArcOrLine)};
-  keep_from_swinging(interval.curvature, zone);
   keep_derivatives(place, place, place, BendKind::kLasting, zone);
   return zone;
 }
@@ -344,15 +366,8 @@ void CertifiedLimits::merge(std::vector<LimitZone>& zones, std::size_t first) co
   }
 }
 
-bool CertifiedLimits::has_swings(const Limits& limits, double period) noexcept {
-  return limits.jerk * period > kSwing * limits.acceleration;
-}
-
 RampLimits CertifiedLimits::least_ramp() const {
   RampLimits least = ramp_;
-  if (has_swings(limits_, period_)) {
-    least.jerk = kSwing * limits_.acceleration / period_;
-  }
   if (has_vector_limits_) {
     least.jerk *= kRest;
   }

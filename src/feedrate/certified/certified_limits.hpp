@@ -44,9 +44,6 @@ class CertifiedLimits final : public LimitSource {
   /// Merges zones[first] with the zone before it if both have the same limits.
   void merge(std::vector<LimitZone>& zones, std::size_t first) const override;
   RampLimits least_ramp() const override;
-
-  /// Whether J changes the acceleration by so much in a period that bends have less of it.
-  static bool has_swings(const Limits& limits, double period) noexcept;
   bool divides_jerk() const override { return has_axis_limits_; }
 
   /// The zone of a part of a bump at a corner.
@@ -61,7 +58,7 @@ class CertifiedLimits final : public LimitSource {
 
  private:
   double any_turn_feedrate() const noexcept;
-  void keep_from_swinging(double curvature, LimitZone& zone) const noexcept;
+  double most_turn(const BendInterval& interval) const noexcept;
   double limit_at(const BendInterval& interval, double feedrate, On what) const;
   double dip_limit(const BendPeak& peak, const LimitZone& bend, double feedrate,
                    const Vec3& tangent) const;

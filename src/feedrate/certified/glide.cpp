@@ -137,12 +137,11 @@ double Glide::way_down(double from, double s, double v, Sense sense, std::size_t
     return ramp_distance(from, v, ramp_);
   }
   Rise* rise = rise_from({s, v}, sense, zone);
-  const double least = from * (1.0 - kFormulaRounding);
-  while (!rise->is_complete() && rise->top() < least) {
+  while (!rise->is_complete() && rise->top() < from) {
     rise->extend();
   }
-  const double distance = rise->top() < least ? std::numeric_limits<double>::infinity()
-                                              : rise->exit_at(std::min(from, rise->top())).distance;
+  const double distance =
+      rise->top() < from ? std::numeric_limits<double>::infinity() : rise->exit_at(from).distance;
   free_.push_back(rise);
   return distance;
 }

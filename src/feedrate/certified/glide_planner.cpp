@@ -190,12 +190,10 @@ double GlidePlanner::descent_to(const Window& window, std::size_t zone, double v
   const auto probe = [&](auto& rise) {
     rise.start(window.zones, zone - 1, {valley.begin, valley.limit}, Sense::kBackward, ramp_,
                std::max(fastest_, v));
-    const double least = v * (1.0 - kFormulaRounding);
-    while (!rise.is_complete() && rise.top() < least && rise.reached() <= most + kPlaceRounding) {
+    while (!rise.is_complete() && rise.top() < v && rise.reached() <= most) {
       rise.extend();
     }
-    return rise.top() < least ? std::numeric_limits<double>::infinity()
-                              : rise.exit_at(std::min(v, rise.top())).distance;
+    return rise.top() < v ? std::numeric_limits<double>::infinity() : rise.exit_at(v).distance;
   };
   return ramps_ == Ramps::kOfZones ? probe(zone_probe_) : probe(probe_);
 }

@@ -56,9 +56,8 @@ double highest_with_room(const Function& missing, double v_least, double at_leas
 std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap) {
   Summit summit;
   const auto room_at = [&](double v) {
-    // By rounding an anchor may be above the limit that a rise to it ends at, and holds.
-    summit.up = up.exit_at(std::min(v, up.top()));
-    summit.down = down.exit_at(std::min(v, down.top()));
+    summit.up = up.exit_at(v);
+    summit.down = down.exit_at(v);
     return length - summit.up.distance - summit.down.distance;
   };
   summit.length = length;
