@@ -41,9 +41,7 @@ constexpr double kMergedLine = 1.0;
 /// decide which corners stay sharp, no limit.
 constexpr double kBumpShare = 0.8;
 constexpr double kBumpShareAlong = 0.34;
-
-/// The same of what is left of it there to the motion along the path.
-constexpr double kLeftShare = 0.05;
+constexpr double kLeftShare = 0.05;  // the same of what is left there to the motion along the path
 constexpr double kLeftShareAlong = 0.4;
 
 constexpr double kNothing = 1e-9;       // a length that is none [mm]
