@@ -104,14 +104,11 @@ int nameless_file(fs::path folder) {
 class LongLineWatch {
  public:
   bool add(std::string_view bytes) {
-    for (std::size_t begin = 0; begin < bytes.size();) {
-      const std::size_t end = std::min(bytes.find_first_of("\r\n", begin), bytes.size());
-      length_ += end - begin;
+    for (const char c : bytes) {
+      length_ = c == '\n' || c == '\r' ? 0 : length_ + 1;
       if (length_ > LineSource::kLongestLine + 2) {
         return true;
       }
-      length_ = end < bytes.size() ? 0 : length_;
-      begin = end + 1;
     }
     return false;
   }

@@ -24,13 +24,14 @@ double bi_chord_error(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
   if (a.dot(b) <= 0.0) {
     return std::numeric_limits<double>::infinity();
   }
-  const double longer = std::sqrt(std::max(a.squaredNorm(), b.squaredNorm()));
+  const double length_a = a.norm();
+  const double length_b = b.norm();
   const double twice_area = a.cross(b).norm();
   if (twice_area == 0.0) {
     return 0.0;
   }
-  const double radius = a.norm() * b.norm() * (p2 - p0).norm() / (2.0 * twice_area);
-  const double half = 0.5 * longer;
+  const double radius = length_a * length_b * (p2 - p0).norm() / (2.0 * twice_area);
+  const double half = 0.5 * std::max(length_a, length_b);
   return half * half / (radius + std::sqrt(std::max(radius * radius - half * half, 0.0)));
 }
 

@@ -9,7 +9,7 @@ import pytest
 
 FOLDER = pathlib.Path(__file__).parents[2] / "docs" / "examples" / "python"
 EXPECTED = {
-    "01_run": r"machining time 9\.5\d\d s\ncontour error max 1\d\.\d um.*\n9572 rows of 16 columns",
+    "01_run": r"machining time 9\.5\d\d s\ncontour error max 1\d\.\d um.*\n9567 rows of 16 columns",
     "02_plan": r"'blocks': 4.*\n(jerk +\d+ mm/s\^3: [\d.]+ s, bound [\d.]+ s\n){3}",
     "03_sweep": r"(F\d+ Kp +[\d.]+: +[\d.]+ s, +[\d.]+ um\n){6}",
     "04_servo": r"x: RMS [\d.]+ um, .*\ny: RMS [\d.]+ um",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "feedrate/certified/dips.hpp"
 #include "feedrate/certified/path_derivatives.hpp"
 #include "feedrate/limits/axis_limits.hpp"
 #include "path/passage.hpp"
@@ -242,6 +243,7 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
   bends_.find(curve);
   const bool has_dips = has_vector_limits_ || (limits_.axis_jerk.array() > 0.0).any();
   const bool has_ramps = has_axis_limits_ || has_vector_limits_;
+  const std::size_t first = zones.size();
   ZoneRow row(zones, has_ramps ? ZoneMerging{.brief = kBriefZone * period_}
                                : ZoneMerging{.same = kSameLimit});
   auto peak = bends_.peaks().begin();
@@ -267,6 +269,9 @@ void CertifiedLimits::append_curve(const path::FittedCurve& curve, double s0, do
       ++peak;
     }
     row.append(zone);
+  }
+  if (!has_ramps) {
+    add_dips(zones, first, feedrate, ramp_);
   }
 }
 

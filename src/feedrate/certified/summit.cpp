@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/root.hpp"
 #include "feedrate/tolerances.hpp"
@@ -64,10 +65,16 @@ bool extend(Rise& rise) {
 
 std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, double cap) {
   Summit summit;
+  double last = std::numeric_limits<double>::quiet_NaN();  // feedrate that was asked for last
+  double room = 0.0;
   const auto room_at = [&](double v) {
-    summit.up = up.exit_at(v);
-    summit.down = down.exit_at(v);
-    return length - summit.up.distance - summit.down.distance;
+    if (v != last) {
+      summit.up = up.exit_at(v);
+      summit.down = down.exit_at(v);
+      room = length - summit.up.distance - summit.down.distance;
+      last = v;
+    }
+    return room;
   };
   summit.length = length;
   while (true) {
@@ -76,6 +83,7 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
     if (lower.is_complete() || v >= cap || (v >= v_least && room_at(v) <= 0.0)) {
       break;
     }
+    last = std::numeric_limits<double>::quiet_NaN();
     if (!extend(lower)) {
       break;
     }
@@ -99,8 +107,8 @@ std::optional<Summit> join(Rise& up, Rise& down, double length, double v_least, 
     return room_low >= -kDistanceRounding ? std::optional(summit) : std::nullopt;
   }
   const auto missing_at = [&](double v) {
-    const double room = room_at(v);
-    return ValueAndSlope{-room, summit.up.slope + summit.down.slope};
+    const double missing = -room_at(v);
+    return ValueAndSlope{missing, summit.up.slope + summit.down.slope};
   };
   summit.v = highest_with_room(missing_at, v_least, -room_low, high, at_high);
   return room_at(summit.v) >= 0.0 ? std::optional(summit) : std::nullopt;
