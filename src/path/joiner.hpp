@@ -61,6 +61,8 @@ class Joiner : public geometry::RunSink {
   void finish();
 
  private:
+  static constexpr double kNothing = 1e-9;  ///< a length that is none [mm]
+
   struct Span {
     geometry::SpanCubic cubic;
     double deviation;
