@@ -23,12 +23,8 @@ constexpr int kCoarseRank = 8;       // hold_rank from which on a parameter is f
 constexpr double kPopulationPerFree = 1.5;
 constexpr int kMostRounds = 8;         // of holding what is not shown and fitting the rest again
 constexpr int kAlignments = 3;         // of hum phases and all else, one after the other
-constexpr double kBlock = 0.25;        // within which residuals may be correlated [s]
 constexpr double kSearchStart = 0.15;  // shares of the progress bar
 constexpr double kSearchEnd = 0.75;
-constexpr double kHumRange = 0.5;  // of 1 / duration, about the frequency found
-
-bool is_of_hum(const std::string& key) { return key.find(".hum_") != std::string::npos; }
 
 }  // namespace
 
@@ -195,12 +191,13 @@ void AxisFitter::judge_and_hold() {
       judged.push_back({.candidate = &parameter.candidate,
                         .value = values[i],
                         .unit = units[i],
+                        .start = parameter.result.start,
                         .is_held = parameter.is_held});
     }
     problem_.set_base(current_);
     const Judgement judgement = judge(
         judged, [&](const Eigen::VectorXd& u) { return residuals(set, u); },
-        static_cast<Eigen::Index>(std::lround(kBlock / current_.period)),
+        static_cast<Eigen::Index>(std::lround(AxisProblem::kBlock / current_.period)),
         problem_.rounding_errors());
     report(kSearchEnd + (1.0 - kSearchEnd) * (round + 1.0) / (kMostRounds + 1.0));
     const config::MachineFile fitted = current_;
@@ -241,22 +238,6 @@ double AxisFitter::rms_of(const config::MachineFile& machine) {
   return std::sqrt(all.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(all.size(), 1)));
 }
 
-/// Frequency and phase of a hum that is not there mean nothing.
-void AxisFitter::doubt_hum_without_amplitude() {
-  const auto is_unknown = [](const Searched& p) {
-    return p.result.key.ends_with("hum_amplitude_mV") && p.result.verdict == Verdict::kUnidentified;
-  };
-  if (std::ranges::none_of(searched_, is_unknown)) {
-    return;
-  }
-  for (Searched& p : searched_) {
-    if (is_of_hum(p.result.key) && p.result.verdict == Verdict::kIdentified) {
-      p.result.verdict = Verdict::kUnidentified;
-      p.result.why = "there is no hum to speak of";
-    }
-  }
-}
-
 void AxisFitter::estimate_gains() {
   gains_ = is_torque_mode() ? measure_torque_servo(problem_, options_, current_)
                             : measure_gains(problem_, options_, current_);
@@ -264,34 +245,6 @@ void AxisFitter::estimate_gains() {
 
 bool AxisFitter::is_torque_mode() const {
   return start_.table.axis[problem_.axis()].drive.mode == hal::mujoco::DriveMode::kTorque;
-}
-
-void AxisFitter::estimate_hum() {
-  std::vector<Searched*> hum;  // amplitude, frequency, phase
-  for (Searched& parameter : searched_) {
-    if (is_of_hum(parameter.result.key)) {
-      if (parameter.is_held) {
-        return;  // the user knows it
-      }
-      hum.push_back(&parameter);
-    }
-  }
-  hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
-  if (direct_hum(problem_, current_) == Hum::kFound) {
-    Parameter& frequency = hum[1]->candidate.parameter;
-    const double range =
-        kHumRange /
-        (static_cast<double>(problem_.records().front().measured.size()) * current_.period);
-    frequency.min = drive.hum_frequency_Hz - range;
-    frequency.max = drive.hum_frequency_Hz + range;
-    return;
-  }
-  for (Searched* const parameter : hum) {
-    hold(*parameter, Verdict::kUnidentified, 0.0, 0.0, "no tone stands out");
-  }
-  drive.hum_amplitude = 0.0;
-  hum[0]->result.verdict = Verdict::kMeasured;
-  hum[0]->result.value = 0.0;
 }
 
 bool AxisFitter::is_free(const std::string& name) const {
@@ -337,10 +290,15 @@ AxisFit AxisFitter::run() {
     join_held_out();
     return finish_torque_mode();
   }
-  const config::MachineFile begin = current_;
+  config::MachineFile begin = current_;
   polish(10, kCoarseRank);
   polish(has_volts() ? 20 : 60);
   hold_friction_where_unfit();
+  drop_doubtful_hum();
+  if (!is_free("hum_amplitude_mV")) {
+    begin.table.axis[problem_.axis()].drive.hum_amplitude =
+        current_.table.axis[problem_.axis()].drive.hum_amplitude;
+  }
   search_further(begin);
   problem_.use(problem_.total());
   for (int i = 0; i < kAlignments && problem_.total() > 1; ++i) {
@@ -369,6 +327,7 @@ AxisFit AxisFitter::finish() {
   doubt_hum_without_amplitude();
   widen_by_mass();
   judge_lack_of_fit();
+  doubt_by_lacking_features();
   if (!has_volts()) {
     doubt_gains_without_volts();
   }

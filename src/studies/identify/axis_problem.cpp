@@ -123,9 +123,7 @@ double AxisProblem::cost(std::size_t record, double hum_phase) const {
   return values.squaredNorm();
 }
 
-Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,
-                                       std::span<const double> units) const {
-  const config::MachineFile machine = set.with_units(base_, units);
+Eigen::VectorXd AxisProblem::residuals(const config::MachineFile& machine) const {
   Eigen::VectorXd all(rows_);
   Eigen::Index begin = 0;
   for (std::size_t i = 0; i < used_; ++i) {

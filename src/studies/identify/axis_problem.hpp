@@ -36,6 +36,7 @@ inline constexpr double kFarTravel = 1e4;
 class AxisProblem {
  public:
   static constexpr double kForgetting = 0.5;  ///< time constant of H [s]
+  static constexpr double kBlock = 0.25;      ///< within which residuals may be correlated [s]
 
   /// @param base     machine with all parameters that are not fitted; its period must be that of
   ///                 the records
@@ -47,7 +48,11 @@ class AxisProblem {
   /// the simulated motion is unstable.
   /// @param set    the parameters to be changed
   /// @param units  their values, each scaled to 0..1 (see ParameterSet)
-  Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const;
+  Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const {
+    return residuals(set.with_units(base_, units));
+  }
+  /// The same of a machine.
+  Eigen::VectorXd residuals(const config::MachineFile& machine) const;
 
   /// What the rounding to counts alone makes of the residuals, for several places of the counts
   /// [mm]. It is no noise: where the axis vibrates or creeps it goes on for many rows.

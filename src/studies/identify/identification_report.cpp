@@ -105,6 +105,9 @@ std::string residual_text(const AxisFit& fit) {
   if (!fit.seems_to_lack.empty()) {
     text += fmt::format("the residual goes with {}\n", fmt::join(fit.seems_to_lack, ", "));
   }
+  if (!fit.would_explain.empty()) {
+    text += fit.would_explain + "\n";
+  }
   return text;
 }
 
@@ -191,6 +194,7 @@ Json axis_json(const AxisFit& fit) {
             {"rounding_rms_um", rounded(units::um_from_mm(fit.rounding_rms))},
             {"search_evaluations", fit.evaluations},
             {"residual_goes_with", fit.seems_to_lack},
+            {"would_explain_residual", fit.would_explain},
             {"parameters", Json::array()},
             {"derived", Json::array()}};
   for (const FittedParameter& p : fit.parameters) {
