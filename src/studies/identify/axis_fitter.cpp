@@ -26,6 +26,10 @@ constexpr int kAlignments = 3;         // of hum phases and all else, one after 
 constexpr double kSearchStart = 0.15;  // shares of the progress bar
 constexpr double kSearchEnd = 0.75;
 
+double rms(const Eigen::VectorXd& all) {
+  return std::sqrt(all.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(all.size(), 1)));
+}
+
 }  // namespace
 
 AxisFitter::AxisFitter(AxisProblem&& problem, FitOptions options)
@@ -134,7 +138,7 @@ void AxisFitter::align() {
 /// One global search from where the fit stands, and the local one after it.
 void AxisFitter::search(int number, const config::MachineFile& begin) {
   const config::MachineFile best = std::exchange(current_, begin);
-  const double best_rms = rms_of(best);
+  const double best_cost = cost_of(best);
   const ParameterSet set = set_of(free_indices());
   problem_.set_base(current_);
   search::MinimiseOptions options;
@@ -156,7 +160,7 @@ void AxisFitter::search(int number, const config::MachineFile& begin) {
   fit_.evaluations += found.evaluations;
   polish(10, kCoarseRank);
   polish(30);
-  if (rms_of(current_) >= best_rms) {
+  if (cost_of(current_) >= best_cost) {
     current_ = best;
   }
 }
@@ -201,12 +205,12 @@ void AxisFitter::judge_and_hold() {
         problem_.rounding_errors());
     report(kSearchEnd + (1.0 - kSearchEnd) * (round + 1.0) / (kMostRounds + 1.0));
     const config::MachineFile fitted = current_;
-    const double residual = rms_of(fitted);
+    const double cost = cost_of(fitted);
     if (!note(indices, judgement) || (options_.stop != nullptr && options_.stop->load())) {
       return;
     }
     polish(has_volts() ? 20 : 60);
-    if (!(rms_of(current_) < kWorseFit * residual)) {
+    if (!(cost_of(current_) < kWorseFit * cost)) {
       current_ = fitted;  // the starting values do not fit at all: held where the fit has them
     }
   }
@@ -231,11 +235,12 @@ bool AxisFitter::note(const Indices& judged, const Judgement& judgement) {
   return must_fit;
 }
 
-double AxisFitter::rms_of(const config::MachineFile& machine) {
-  problem_.set_base(machine);
-  const ParameterSet none;
-  const Eigen::VectorXd all = problem_.residuals(none, {});
-  return std::sqrt(all.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(all.size(), 1)));
+double AxisFitter::rms_of(const config::MachineFile& machine) const {
+  return rms(problem_.residuals(machine).head(problem_.rows()));
+}
+
+double AxisFitter::cost_of(const config::MachineFile& machine) const {
+  return rms(problem_.residuals(machine));
 }
 
 void AxisFitter::estimate_gains() {

@@ -65,7 +65,8 @@ class AxisFitter {
   void hold(Searched& parameter, Verdict verdict, double sigma, double relative, std::string why);
   void report(double share) const;
   void doubt_hum_without_amplitude();
-  double rms_of(const config::MachineFile& machine);
+  double rms_of(const config::MachineFile& machine) const;   // of the positions [mm]
+  double cost_of(const config::MachineFile& machine) const;  // RMS of all residuals
   AxisFit finish();
 
   AxisProblem problem_;

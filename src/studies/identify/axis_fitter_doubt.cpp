@@ -111,7 +111,7 @@ void AxisFitter::doubt_by_lacking_features() {
 /// Says what the residual goes with: the share of its variance that a straight line explains.
 std::vector<std::string> AxisFitter::what_residual_goes_with() {
   problem_.set_base(current_);
-  const Eigen::VectorXd all = problem_.residuals(ParameterSet(), {});
+  const Eigen::VectorXd all = problem_.residuals(current_).head(problem_.rows());
   using Cause = std::pair<const char*, double (*)(const motion::Reference&)>;
   constexpr std::array kCauses{
       Cause{"velocity", [](const motion::Reference& r) { return r.velocity; }},
