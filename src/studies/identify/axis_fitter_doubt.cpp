@@ -62,7 +62,7 @@ std::vector<FeatureDoubt> AxisFitter::feature_doubts(const Indices& indices) {
     for (std::size_t k = 0; k < machines.size(); ++k) {
       signature.col(static_cast<Eigen::Index>(k)) = problem_.residuals(machines[k]) - residual;
     }
-    doubts[i] = feature_doubt(j, residual, signature, block);
+    doubts[i] = feature_doubt(j, residual, signature, features[i].usual, block);
     doubts[i].name = features[i].name;
   });
   return doubts;

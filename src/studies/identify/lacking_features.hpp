@@ -12,6 +12,7 @@ namespace twin::studies::identify {
 /// A feature that machines have and that no search fits.
 struct LackingFeature {
   std::string name;
+  double usual = 1.0;  ///< strength that machines have it in, where a fit does not show it
   /// The machine with some of the feature; two machines where it has a phase, too.
   std::vector<config::MachineFile> machines;
 };
@@ -37,8 +38,8 @@ struct FeatureDoubt {
 /// left out. The mean square of the move is that of a's estimate and of its deviation, whose scores
 /// are summed over blocks, as in block_covariance(). Where J can do nearly all that the feature does,
 /// as where an output delay does what a late encoder does, a is not known from r, and taken to be 0
-/// with a deviation of twice the unit strength.
+/// with a usual strength as its deviation.
 FeatureDoubt feature_doubt(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
-                           const Eigen::MatrixXd& signature, Eigen::Index block);
+                           const Eigen::MatrixXd& signature, double usual, Eigen::Index block);
 
 }  // namespace twin::studies::identify

@@ -14,6 +14,7 @@ namespace lacking_features_test {
 
 constexpr Eigen::Index kRows = 2000;
 constexpr Eigen::Index kBlock = 50;
+constexpr double kUsual = 2.0;
 
 /// Measured less model after a fit of J alone to J p + noise - D a.
 struct Fit {
@@ -54,7 +55,7 @@ TEST(LackingFeatures, DoubtIsTheBiasOfWhatWasLeftOut) {
   Regression regression;
   const Fit fit = regression.fit(1.5, 0.01);  // the true parameters are 0
   const FeatureDoubt doubt =
-      feature_doubt(regression.j, fit.residual, regression.signature, kBlock);
+      feature_doubt(regression.j, fit.residual, regression.signature, kUsual, kBlock);
   EXPECT_NEAR(std::abs(fit.found[0]), 0.7 * 1.5, 0.01);
   EXPECT_NEAR(doubt.spread[0], std::abs(fit.found[0]), 0.02);
   EXPECT_LT(doubt.spread[1], 0.04);
@@ -65,7 +66,7 @@ TEST(LackingFeatures, WhatTheDataExcludeMakesNoDoubt) {
   Regression regression;
   const Fit fit = regression.fit(0.0, 0.01);
   const FeatureDoubt doubt =
-      feature_doubt(regression.j, fit.residual, regression.signature, kBlock);
+      feature_doubt(regression.j, fit.residual, regression.signature, kUsual, kBlock);
   EXPECT_LT(doubt.spread[0], 0.04);
   EXPECT_LT(doubt.share, 0.05);
 }
@@ -76,8 +77,19 @@ TEST(LackingFeatures, WhatAParameterDoesAsWellIsNotTakenForAbsent) {
   regression.signature.col(0) = regression.j.col(1);
   const Fit fit = regression.fit(1.5, 0.01);
   const FeatureDoubt doubt =
-      feature_doubt(regression.j, fit.residual, regression.signature, kBlock);
-  EXPECT_NEAR(doubt.spread[1], 2.0, 0.01);
+      feature_doubt(regression.j, fit.residual, regression.signature, kUsual, kBlock);
+  EXPECT_NEAR(doubt.spread[1], kUsual, 0.01);
+}
+
+// A sampling shorter than a physics step is none.
+TEST(LackingFeatures, AFeatureWithoutEffectMakesNoDoubt) {
+  Regression regression;
+  const Fit fit = regression.fit(0.0, 0.01);
+  regression.signature.setZero();
+  const FeatureDoubt doubt =
+      feature_doubt(regression.j, fit.residual, regression.signature, kUsual, kBlock);
+  EXPECT_EQ(doubt.spread.norm(), 0.0);
+  EXPECT_EQ(doubt.share, 0.0);
 }
 
 TEST(LackingFeatures, EachChangesTheMachine) {
