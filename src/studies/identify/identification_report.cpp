@@ -57,7 +57,11 @@ std::string relative_text(const FittedParameter& p) {
   if (p.relative < 1e-4) {
     return "< 0.01 %";
   }
-  return p.relative > 9.99 ? "> 999 %" : fmt::format("{:.2g} %", 100.0 * p.relative);
+  if (p.relative > 9.99) {
+    return "> 999 %";
+  }
+  return p.relative > 0.995 ? fmt::format("{:.0f} %", 100.0 * p.relative)
+                            : fmt::format("{:.2g} %", 100.0 * p.relative);
 }
 
 /// Where the value of a parameter comes from, in a word of the table.
