@@ -66,9 +66,10 @@ struct AxisFit {
   std::vector<FittedParameter> derived;    ///< what is no key of its own; its unit is in the name
   std::vector<std::string> notes;          ///< of the fit
   std::vector<std::string> seems_to_lack;  ///< what the residual goes with, where it is too large
-  std::optional<InverseModel> inverse;     ///< where the motor's force is known
-  std::optional<InverseModel> two_way;     ///< the same with friction that differs either way
-  bool takes_two_way = false;              ///< the machine has the friction of the latter
+  std::string would_explain;  ///< a feature that the model lacks and what it would explain of that
+  std::optional<InverseModel> inverse;  ///< where the motor's force is known
+  std::optional<InverseModel> two_way;  ///< the same with friction that differs either way
+  bool takes_two_way = false;           ///< the machine has the friction of the latter
   /// The machine before the held-out part of the records joined the fit.
   std::optional<config::MachineFile> trained;
   std::optional<InverseModel> trained_inverse;

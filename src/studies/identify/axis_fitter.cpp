@@ -23,12 +23,12 @@ constexpr int kCoarseRank = 8;       // hold_rank from which on a parameter is f
 constexpr double kPopulationPerFree = 1.5;
 constexpr int kMostRounds = 8;         // of holding what is not shown and fitting the rest again
 constexpr int kAlignments = 3;         // of hum phases and all else, one after the other
-constexpr double kBlock = 0.25;        // within which residuals may be correlated [s]
 constexpr double kSearchStart = 0.15;  // shares of the progress bar
 constexpr double kSearchEnd = 0.75;
-constexpr double kHumRange = 0.5;  // of 1 / duration, about the frequency found
 
-bool is_of_hum(const std::string& key) { return key.find(".hum_") != std::string::npos; }
+double rms(const Eigen::VectorXd& all) {
+  return std::sqrt(all.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(all.size(), 1)));
+}
 
 }  // namespace
 
@@ -138,7 +138,7 @@ void AxisFitter::align() {
 /// One global search from where the fit stands, and the local one after it.
 void AxisFitter::search(int number, const config::MachineFile& begin) {
   const config::MachineFile best = std::exchange(current_, begin);
-  const double best_rms = rms_of(best);
+  const double best_cost = cost_of(best);
   const ParameterSet set = set_of(free_indices());
   problem_.set_base(current_);
   search::MinimiseOptions options;
@@ -160,7 +160,7 @@ void AxisFitter::search(int number, const config::MachineFile& begin) {
   fit_.evaluations += found.evaluations;
   polish(10, kCoarseRank);
   polish(30);
-  if (rms_of(current_) >= best_rms) {
+  if (cost_of(current_) >= best_cost) {
     current_ = best;
   }
 }
@@ -195,21 +195,22 @@ void AxisFitter::judge_and_hold() {
       judged.push_back({.candidate = &parameter.candidate,
                         .value = values[i],
                         .unit = units[i],
+                        .start = parameter.result.start,
                         .is_held = parameter.is_held});
     }
     problem_.set_base(current_);
     const Judgement judgement = judge(
         judged, [&](const Eigen::VectorXd& u) { return residuals(set, u); },
-        static_cast<Eigen::Index>(std::lround(kBlock / current_.period)),
+        static_cast<Eigen::Index>(std::lround(AxisProblem::kBlock / current_.period)),
         problem_.rounding_errors());
     report(kSearchEnd + (1.0 - kSearchEnd) * (round + 1.0) / (kMostRounds + 1.0));
     const config::MachineFile fitted = current_;
-    const double residual = rms_of(fitted);
+    const double cost = cost_of(fitted);
     if (!note(indices, judgement) || (options_.stop != nullptr && options_.stop->load())) {
       return;
     }
     polish(has_volts() ? 20 : 60);
-    if (!(rms_of(current_) < kWorseFit * residual)) {
+    if (!(cost_of(current_) < kWorseFit * cost)) {
       current_ = fitted;  // the starting values do not fit at all: held where the fit has them
     }
   }
@@ -234,27 +235,12 @@ bool AxisFitter::note(const Indices& judged, const Judgement& judgement) {
   return must_fit;
 }
 
-double AxisFitter::rms_of(const config::MachineFile& machine) {
-  problem_.set_base(machine);
-  const ParameterSet none;
-  const Eigen::VectorXd all = problem_.residuals(none, {});
-  return std::sqrt(all.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(all.size(), 1)));
+double AxisFitter::rms_of(const config::MachineFile& machine) const {
+  return rms(problem_.residuals(machine).head(problem_.rows()));
 }
 
-/// Frequency and phase of a hum that is not there mean nothing.
-void AxisFitter::doubt_hum_without_amplitude() {
-  const auto is_unknown = [](const Searched& p) {
-    return p.result.key.ends_with("hum_amplitude_mV") && p.result.verdict == Verdict::kUnidentified;
-  };
-  if (std::ranges::none_of(searched_, is_unknown)) {
-    return;
-  }
-  for (Searched& p : searched_) {
-    if (is_of_hum(p.result.key) && p.result.verdict == Verdict::kIdentified) {
-      p.result.verdict = Verdict::kUnidentified;
-      p.result.why = "there is no hum to speak of";
-    }
-  }
+double AxisFitter::cost_of(const config::MachineFile& machine) const {
+  return rms(problem_.residuals(machine));
 }
 
 void AxisFitter::estimate_gains() {
@@ -264,34 +250,6 @@ void AxisFitter::estimate_gains() {
 
 bool AxisFitter::is_torque_mode() const {
   return start_.table.axis[problem_.axis()].drive.mode == hal::mujoco::DriveMode::kTorque;
-}
-
-void AxisFitter::estimate_hum() {
-  std::vector<Searched*> hum;  // amplitude, frequency, phase
-  for (Searched& parameter : searched_) {
-    if (is_of_hum(parameter.result.key)) {
-      if (parameter.is_held) {
-        return;  // the user knows it
-      }
-      hum.push_back(&parameter);
-    }
-  }
-  hal::mujoco::DriveParams& drive = current_.table.axis[problem_.axis()].drive;
-  if (direct_hum(problem_, current_) == Hum::kFound) {
-    Parameter& frequency = hum[1]->candidate.parameter;
-    const double range =
-        kHumRange /
-        (static_cast<double>(problem_.records().front().measured.size()) * current_.period);
-    frequency.min = drive.hum_frequency_Hz - range;
-    frequency.max = drive.hum_frequency_Hz + range;
-    return;
-  }
-  for (Searched* const parameter : hum) {
-    hold(*parameter, Verdict::kUnidentified, 0.0, 0.0, "no tone stands out");
-  }
-  drive.hum_amplitude = 0.0;
-  hum[0]->result.verdict = Verdict::kMeasured;
-  hum[0]->result.value = 0.0;
 }
 
 bool AxisFitter::is_free(const std::string& name) const {
@@ -337,10 +295,15 @@ AxisFit AxisFitter::run() {
     join_held_out();
     return finish_torque_mode();
   }
-  const config::MachineFile begin = current_;
+  config::MachineFile begin = current_;
   polish(10, kCoarseRank);
   polish(has_volts() ? 20 : 60);
   hold_friction_where_unfit();
+  drop_doubtful_hum();
+  if (!is_free("hum_amplitude_mV")) {
+    begin.table.axis[problem_.axis()].drive.hum_amplitude =
+        current_.table.axis[problem_.axis()].drive.hum_amplitude;
+  }
   search_further(begin);
   problem_.use(problem_.total());
   for (int i = 0; i < kAlignments && problem_.total() > 1; ++i) {
@@ -369,6 +332,7 @@ AxisFit AxisFitter::finish() {
   doubt_hum_without_amplitude();
   widen_by_mass();
   judge_lack_of_fit();
+  doubt_by_lacking_features();
   if (!has_volts()) {
     doubt_gains_without_volts();
   }

@@ -5,6 +5,7 @@
 
 #include "studies/identify/axis_fit.hpp"
 #include "studies/identify/judge.hpp"
+#include "studies/identify/lacking_features.hpp"
 #include "studies/identify/parameter.hpp"
 
 namespace twin::studies::identify {
@@ -42,6 +43,8 @@ class AxisFitter {
   void begin_from_steady_lag();
   void join_held_out();
   void judge_lack_of_fit();
+  std::vector<FeatureDoubt> feature_doubts(const Indices& indices);
+  void doubt_by_lacking_features();
   std::vector<std::string> what_residual_goes_with();
   void doubt_gains_without_volts();
   bool is_torque_mode() const;
@@ -49,6 +52,7 @@ class AxisFitter {
   void complete_torque_mode();
   AxisFit finish_torque_mode();
   void estimate_hum();
+  void drop_doubtful_hum();
   void align();
   void search(int number, const config::MachineFile& begin);
   void search_further(const config::MachineFile& begin);
@@ -61,7 +65,8 @@ class AxisFitter {
   void hold(Searched& parameter, Verdict verdict, double sigma, double relative, std::string why);
   void report(double share) const;
   void doubt_hum_without_amplitude();
-  double rms_of(const config::MachineFile& machine);
+  double rms_of(const config::MachineFile& machine) const;   // of the positions [mm]
+  double cost_of(const config::MachineFile& machine) const;  // RMS of all residuals
   AxisFit finish();
 
   AxisProblem problem_;

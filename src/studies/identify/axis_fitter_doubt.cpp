@@ -5,16 +5,19 @@
 #include <cmath>
 #include <utility>
 
+#include "core/parallel_for.hpp"
 #include "studies/identify/axis_fitter.hpp"
+#include "studies/identify/lacking_features.hpp"
 #include "studies/identify/torque_servo.hpp"
 
 // The parts of a fit that are about what its deviations do not say.
 namespace twin::studies::identify {
 namespace {
 
-constexpr double kTellingShare = 0.1;    // of the variance of a residual
-constexpr double kDoubt = 1.5;           // of a deviation, by which it is widened
-constexpr double kDoubtPerExcess = 3.0;  // of the residual over what rounding makes
+constexpr double kFeatureDifference = 1e-4;  // of the unit cube
+constexpr double kTellingShare = 0.1;        // of the variance of a residual
+constexpr double kDoubt = 1.5;               // of a deviation, by which it is widened
+constexpr double kDoubtPerExcess = 3.0;      // of the residual over what rounding makes
 
 }  // namespace
 
@@ -39,10 +42,76 @@ void AxisFitter::widen_by_mass() {
   }
 }
 
+/// What each feature that no search fits would move the identified parameters by.
+std::vector<FeatureDoubt> AxisFitter::feature_doubts(const Indices& indices) {
+  problem_.set_base(current_);
+  const ParameterSet set = set_of(indices);
+  const std::vector<double> units = set.units(current_);
+  const Eigen::MatrixXd j = central_jacobian(
+      [&](const Eigen::VectorXd& u) { return residuals(set, u); },
+      Eigen::Map<const Eigen::VectorXd>(units.data(), static_cast<Eigen::Index>(units.size())),
+      kFeatureDifference);
+  const Eigen::VectorXd residual = problem_.residuals(current_);
+  const std::vector<LackingFeature> features =
+      lacking_features(current_, problem_.axis(), has_volts());
+  std::vector<FeatureDoubt> doubts(features.size());
+  const auto block = static_cast<Eigen::Index>(std::lround(AxisProblem::kBlock / current_.period));
+  parallel_for(features.size(), [&](std::size_t i) {
+    const auto& machines = features[i].machines;
+    Eigen::MatrixXd signature(residual.size(), static_cast<Eigen::Index>(machines.size()));
+    for (std::size_t k = 0; k < machines.size(); ++k) {
+      signature.col(static_cast<Eigen::Index>(k)) = problem_.residuals(machines[k]) - residual;
+    }
+    doubts[i] = feature_doubt(j, residual, signature, features[i].usual, block);
+    doubts[i].name = features[i].name;
+  });
+  return doubts;
+}
+
+/// Adds to the deviations what the parameters would move by if the model had one of the features
+/// that no search fits: the largest move of all.
+void AxisFitter::doubt_by_lacking_features() {
+  Indices indices;
+  for (std::size_t i = 0; i < searched_.size(); ++i) {
+    const Verdict verdict = searched_[i].result.verdict;
+    if ((verdict == Verdict::kIdentified || verdict == Verdict::kUncertain) &&
+        !searched_[i].is_measured) {
+      indices.push_back(i);
+    }
+  }
+  if (indices.empty()) {
+    return;
+  }
+  const std::vector<FeatureDoubt> doubts = feature_doubts(indices);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const FeatureDoubt& most = *std::ranges::max_element(
+        doubts, {}, [row](const FeatureDoubt& doubt) { return doubt.spread[row]; });
+    const Searched& parameter = searched_[indices[k]];
+    FittedParameter& result = searched_[indices[k]].result;
+    const double per_sigma = result.sigma > 0.0 ? result.relative / result.sigma : 0.0;
+    result.sigma = std::hypot(result.sigma,
+                              most.spread[row] * value_per_unit(parameter.candidate, result.value));
+    result.relative = result.sigma * per_sigma;
+    if (result.relative > kMostRelative && result.verdict == Verdict::kIdentified) {
+      result.verdict = Verdict::kUncertain;
+      result.why = most.name + " would look the same";
+    }
+  }
+  if (fit_.rounding_rms > 0.0 && fit_.residual_rms <= kLackOfFit * fit_.rounding_rms) {
+    return;
+  }
+  const FeatureDoubt& likely = *std::ranges::max_element(doubts, {}, &FeatureDoubt::share);
+  if (likely.share > kTellingShare) {
+    fit_.would_explain =
+        fmt::format("{} would explain {:.0f} % of it", likely.name, 100.0 * likely.share);
+  }
+}
+
 /// Says what the residual goes with: the share of its variance that a straight line explains.
 std::vector<std::string> AxisFitter::what_residual_goes_with() {
   problem_.set_base(current_);
-  const Eigen::VectorXd all = problem_.residuals(ParameterSet(), {});
+  const Eigen::VectorXd all = problem_.residuals(current_).head(problem_.rows());
   using Cause = std::pair<const char*, double (*)(const motion::Reference&)>;
   constexpr std::array kCauses{
       Cause{"velocity", [](const motion::Reference& r) { return r.velocity; }},

@@ -18,6 +18,7 @@ constexpr double kStiffWay = 1e-3;        // that Coulomb friction bends its spr
 constexpr double kTorqueReserve = 1.5;    // over the largest torque recorded
 constexpr double kMostTorqueDelay = 3.0;  // that is looked for [periods]
 constexpr double kDelayPrecision = 0.01;  // [periods]
+constexpr double kForceWeight = 0.5;      // of the RMS of the force beside that of the position
 constexpr double kFineTolerance = 1e-7;   // of the last local search
 constexpr double kNoticed = 0.02;         // of the force, from which on a load is noticed
 constexpr double kUsualKp = 100.0;        // [1/s]
@@ -157,7 +158,8 @@ void AxisFitter::estimate_inverse() {
   raise_peak_torque();
 }
 
-/// Where the model does not fit, friction is that of the force.
+/// Where the model does not fit, friction is that of the force, and the force is fitted beside the
+/// positions.
 void AxisFitter::hold_friction_where_unfit() {
   const bool is_fit = rms_of(current_) <= kLackOfFit * fit_.rounding_rms;
   if (!problem_.has_force() || holds_friction_ || is_fit) {
@@ -166,6 +168,12 @@ void AxisFitter::hold_friction_where_unfit() {
   holds_friction_ = true;
   estimate_inverse();
   polish(30);
+  const double force =
+      problem_.force_difference(current_).norm() / std::sqrt(static_cast<double>(problem_.rows()));
+  if (force > 0.0) {
+    problem_.weigh_force(kForceWeight * rms_of(current_) / force);
+    polish(30);
+  }
 }
 
 /// The servo's gains where nothing but the steady lag L = (1 - Kf) / Kp tells them: the start that

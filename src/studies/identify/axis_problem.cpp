@@ -64,8 +64,8 @@ void AxisProblem::use(std::size_t count) noexcept {
   }
 }
 
-Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std::size_t record,
-                                        double hum_phase) const {
+AxisProblem::Apart AxisProblem::apart(const config::MachineFile& machine, std::size_t record,
+                                      double hum_phase) const {
   const AxisRecord& data = records_[record];
   AxisSetup setup = axis_setup(machine, axis_);
   setup.axis.travel = kFarTravel;
@@ -85,21 +85,28 @@ Eigen::VectorXd AxisProblem::difference(const config::MachineFile& machine, std:
   } else {
     model.settle(data.command.front().position);
   }
-  Eigen::VectorXd result(static_cast<Eigen::Index>(data.measured.size()));
+  const auto rows = static_cast<Eigen::Index>(data.measured.size());
+  Apart result{Eigen::VectorXd(rows), Eigen::VectorXd::Zero(rows)};
+  const std::size_t settling = settling_rows(data, setup.period);
   for (std::size_t k = 0; k < data.measured.size(); ++k) {
     const double volts =
         data.has_volts() ? data.volts[k] : servo.update(data.command[k], data.measured[k]);
-    result[static_cast<Eigen::Index>(k)] = data.measured[k] - model.drive(volts).feedback;
+    const AxisRow row = model.drive(volts);
+    result.position[static_cast<Eigen::Index>(k)] = data.measured[k] - row.feedback;
+    if (data.has_force() && k >= settling && data.counts(k)) {
+      result.force[static_cast<Eigen::Index>(k)] = data.force[k] - row.force;
+    }
   }
   if (model.has_failed()) {
-    result.setConstant(kUnstable);
+    result.position.setConstant(kUnstable);
   }
   return result;
 }
 
 std::vector<Eigen::VectorXd> AxisProblem::rounding_errors() const {
   const double count = std::abs(base_.table.axis[axis_].encoder.mm_per_count);
-  std::vector<Eigen::VectorXd> all(kCountPlaces, Eigen::VectorXd(rows_));
+  const Eigen::Index rows = force_weight_ > 0.0 ? 2 * rows_ : rows_;
+  std::vector<Eigen::VectorXd> all(kCountPlaces, Eigen::VectorXd::Zero(rows));
   Eigen::Index begin = 0;
   for (std::size_t i = 0; i < used_; ++i) {
     const Eigen::VectorXd apart = difference(base_, i);
@@ -118,23 +125,36 @@ std::vector<Eigen::VectorXd> AxisProblem::rounding_errors() const {
 }
 
 double AxisProblem::cost(std::size_t record, double hum_phase) const {
-  Eigen::VectorXd values = difference(base_, record, hum_phase);
+  Eigen::VectorXd values = apart(base_, record, hum_phase).position;
   filter(values, records_[record], base_.period);
   return values.squaredNorm();
 }
 
-Eigen::VectorXd AxisProblem::residuals(const ParameterSet& set,
-                                       std::span<const double> units) const {
-  const config::MachineFile machine = set.with_units(base_, units);
+Eigen::VectorXd AxisProblem::residuals(const config::MachineFile& machine) const {
+  Eigen::VectorXd all(force_weight_ > 0.0 ? 2 * rows_ : rows_);
+  Eigen::Index begin = 0;
+  for (std::size_t i = 0; i < used_; ++i) {
+    const Apart one = apart(machine, i, hum_phase_[i]);
+    const Eigen::Index rows = one.position.size();
+    all.segment(begin, rows) = one.position;
+    if (std::abs(one.position[0]) < kUnstable) {
+      filter(all.segment(begin, rows), records_[i], machine.period);
+    }
+    if (force_weight_ > 0.0) {
+      all.segment(rows_ + begin, rows) = force_weight_ * one.force;
+    }
+    begin += rows;
+  }
+  return all;
+}
+
+Eigen::VectorXd AxisProblem::force_difference(const config::MachineFile& machine) const {
   Eigen::VectorXd all(rows_);
   Eigen::Index begin = 0;
   for (std::size_t i = 0; i < used_; ++i) {
-    const Eigen::VectorXd one = difference(machine, i);
-    all.segment(begin, one.size()) = one;
-    if (std::abs(one[0]) < kUnstable) {
-      filter(all.segment(begin, one.size()), records_[i], machine.period);
-    }
-    begin += one.size();
+    const Apart one = apart(machine, i, hum_phase_[i]);
+    all.segment(begin, one.force.size()) = one.force;
+    begin += one.force.size();
   }
   return all;
 }

@@ -33,9 +33,14 @@ inline constexpr double kFarTravel = 1e4;
 /// torque that the motion needed. Effects that the model lacks would add up in x over a long
 /// record. The high-pass filter H with the time constant kForgetting removes them. Rows that are left
 /// out, and those in which a record that begins in motion settles, have rho = 0.
+///
+/// Where the model is known to lack something and the motor's force was recorded, the differences of
+/// recorded and simulated force, times a weight, are residuals beside those of the position: what
+/// the model lacks is then not made up for by parameters that make a wrong force.
 class AxisProblem {
  public:
   static constexpr double kForgetting = 0.5;  ///< time constant of H [s]
+  static constexpr double kBlock = 0.25;      ///< within which residuals may be correlated [s]
 
   /// @param base     machine with all parameters that are not fitted; its period must be that of
   ///                 the records
@@ -43,11 +48,15 @@ class AxisProblem {
   /// @param records  one for each trace
   AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<AxisRecord> records);
 
-  /// Residuals rho of all records in use, one record after the other [mm]. They are very large if
-  /// the simulated motion is unstable.
+  /// Residuals rho of all records in use, one record after the other, and after them those of the
+  /// force, if it has a weight [mm]. They are very large if the simulated motion is unstable.
   /// @param set    the parameters to be changed
   /// @param units  their values, each scaled to 0..1 (see ParameterSet)
-  Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const;
+  Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const {
+    return residuals(set.with_units(base_, units));
+  }
+  /// The same of a machine.
+  Eigen::VectorXd residuals(const config::MachineFile& machine) const;
 
   /// What the rounding to counts alone makes of the residuals, for several places of the counts
   /// [mm]. It is no noise: where the axis vibrates or creeps it goes on for many rows.
@@ -55,8 +64,13 @@ class AxisProblem {
 
   /// Difference y - x of one record without the filter H [mm].
   Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record) const {
-    return difference(machine, record, hum_phase_[record]);
+    return apart(machine, record, hum_phase_[record]).position;
   }
+  /// Recorded less simulated force of all records in use [N].
+  Eigen::VectorXd force_difference(const config::MachineFile& machine) const;
+
+  /// Makes the force a part of the residuals. @param weight  0: it is none [mm/N]
+  void weigh_force(double weight) noexcept { force_weight_ = weight; }
 
   /// Sum of squared residuals of one record [mm^2].
   /// @param hum_phase  phase of the drive's hum at the begin of the record, added to that of the
@@ -85,15 +99,20 @@ class AxisProblem {
   const std::vector<double>& hum_phase() const noexcept { return hum_phase_; }
 
  private:
-  Eigen::VectorXd difference(const config::MachineFile& machine, std::size_t record,
-                             double hum_phase) const;
+  /// How far the recorded motion and the simulated one are apart.
+  struct Apart {
+    Eigen::VectorXd position;  // y - x [mm]
+    Eigen::VectorXd force;     // recorded less simulated, 0 where none was recorded [N]
+  };
+  Apart apart(const config::MachineFile& machine, std::size_t record, double hum_phase) const;
 
   config::MachineFile base_;
   hal::Axis axis_;
   std::vector<AxisRecord> records_;
   std::vector<double> hum_phase_;
   std::size_t used_ = 0;
-  Eigen::Index rows_ = 0;  // of the records in use
+  Eigen::Index rows_ = 0;      // of the records in use
+  double force_weight_ = 0.0;  // [mm/N]
 };
 
 }  // namespace twin::studies::identify

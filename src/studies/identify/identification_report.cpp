@@ -57,7 +57,11 @@ std::string relative_text(const FittedParameter& p) {
   if (p.relative < 1e-4) {
     return "< 0.01 %";
   }
-  return p.relative > 9.99 ? "> 999 %" : fmt::format("{:.2g} %", 100.0 * p.relative);
+  if (p.relative > 9.99) {
+    return "> 999 %";
+  }
+  return p.relative > 0.995 ? fmt::format("{:.0f} %", 100.0 * p.relative)
+                            : fmt::format("{:.2g} %", 100.0 * p.relative);
 }
 
 /// Where the value of a parameter comes from, in a word of the table.
@@ -104,6 +108,9 @@ std::string residual_text(const AxisFit& fit) {
   }
   if (!fit.seems_to_lack.empty()) {
     text += fmt::format("the residual goes with {}\n", fmt::join(fit.seems_to_lack, ", "));
+  }
+  if (!fit.would_explain.empty()) {
+    text += fit.would_explain + "\n";
   }
   return text;
 }
@@ -191,6 +198,7 @@ Json axis_json(const AxisFit& fit) {
             {"rounding_rms_um", rounded(units::um_from_mm(fit.rounding_rms))},
             {"search_evaluations", fit.evaluations},
             {"residual_goes_with", fit.seems_to_lack},
+            {"would_explain_residual", fit.would_explain},
             {"parameters", Json::array()},
             {"derived", Json::array()}};
   for (const FittedParameter& p : fit.parameters) {

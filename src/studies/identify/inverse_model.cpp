@@ -31,7 +31,8 @@ constexpr double kStribeckShare = 0.1;      // of the peak velocity, in the refi
 constexpr double kScoreTime = 0.25;         // within which residuals may be correlated [s]
 constexpr std::array<Index, 6> kLags{-4, -2, -1,
                                      1,  2,  4};  // of the force, that a refit tries [rows]
-constexpr double kTells = 0.1;                    // share of the residual's variance that is said
+constexpr double kUsualAsymmetry = 0.2;  // of Coulomb friction, which is the same force as weight
+constexpr double kTells = 0.1;           // share of the residual's variance that is said
 
 /// Rows of (1), of all records.
 struct Regression {
@@ -342,6 +343,8 @@ InverseModel fit_inverse_model(std::span<const AxisRecord> records, double perio
   model.viscous = coefficient(1, 1.0);
   model.coulomb = coefficient(2, 1.0);
   model.weight = has_weight ? coefficient(3, 1.0) : Coefficient{};
+  model.weight.sigma =
+      std::hypot(model.weight.sigma, has_weight ? kUsualAsymmetry * model.coulomb.value : 0.0);
   if (model.is_two_way) {
     model.viscous_asymmetry = coefficient(4, 1.0);
   }

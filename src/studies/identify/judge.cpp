@@ -30,11 +30,6 @@ double relative_per_unit(const Candidate& candidate, double value) {
   return (p.max - p.min) / std::max({std::abs(value), candidate.natural, 1e-12});
 }
 
-double value_per_unit(const Candidate& candidate, double value) {
-  const Parameter& p = candidate.parameter;
-  return p.scale == Scale::kLogarithmic ? value * std::log(p.max / p.min) : p.max - p.min;
-}
-
 /// Names of those that a parameter moves together with.
 std::string partners(const std::vector<JudgedCandidate>& candidates, const std::vector<Index>& kept,
                      const MatrixXd& covariance, Index place) {
@@ -86,8 +81,8 @@ void add_doubt_of_held(const std::vector<JudgedCandidate>& candidates, const Mat
     if (judgement[h].verdict == Verdict::kIdentified || candidates[h].candidate->is_analysed_only) {
       continue;
     }
-    const double doubt =
-        kHeldDoubt / relative_per_unit(*candidates[h].candidate, candidates[h].value);
+    const double size = std::max(std::abs(candidates[h].value), std::abs(candidates[h].start));
+    const double doubt = kHeldDoubt / relative_per_unit(*candidates[h].candidate, size);
     const VectorXd shifts =
         transposed_product(inverse,
                            transposed_product(kept_columns, j.col(static_cast<Index>(h)))) *
@@ -155,6 +150,11 @@ void add_rounding(const MatrixXd& kept_columns, const std::vector<VectorXd>& rou
 }
 
 }  // namespace
+
+double value_per_unit(const Candidate& candidate, double value) {
+  const Parameter& p = candidate.parameter;
+  return p.scale == Scale::kLogarithmic ? value * std::log(p.max / p.min) : p.max - p.min;
+}
 
 Judgement judge(const std::vector<JudgedCandidate>& candidates, const Residuals& residuals,
                 Eigen::Index block, const std::vector<Eigen::VectorXd>& rounding) {

@@ -25,8 +25,12 @@ struct JudgedCandidate {
   const Candidate* candidate = nullptr;
   double value = 0.0;    ///< in the key's unit
   double unit = 0.0;     ///< place in its range, 0 to 1
+  double start = 0.0;    ///< its starting value, in the key's unit
   bool is_held = false;  ///< known to be unidentified
 };
+
+/// What moving a candidate through its whole range changes its value by, to first order [its unit].
+double value_per_unit(const Candidate& candidate, double value);
 
 /// Tells identified from unidentified parameters at a least-squares fit.
 ///

@@ -141,6 +141,7 @@ TEST_F(MeasuredMachines, SinumerikShowsItsGainsItsWeightAndItsForce) {
   for (const Validation& v : result->validations) {
     EXPECT_LT(v.twin.rms, v.filter.rms) << v.axis;
     EXPECT_LT(*v.inverse_force_error, 0.2) << v.axis;
+    EXPECT_LT(v.force->twin.rms, 0.2 * v.force->measured_rms) << v.axis;
   }
   const FittedParameter* const weight = find(*result->axis[hal::kY], "weight_N");
   ASSERT_NE(weight, nullptr);

@@ -12,6 +12,8 @@ namespace twin::studies::identify {
 /// What a simulated machine's recording has besides command and measured position.
 enum class Recorded { kPositions, kVolts, kVoltsAndForce };
 
+inline constexpr double kGoesOn = 0.01;  // after the end of a recording [s]
+
 /// Set points of strokes at several velocities, both ways, from rest [mm].
 inline std::vector<double> strokes(double seconds, double period) {
   std::vector<double> positions;
@@ -31,9 +33,12 @@ inline Recording record_x(const config::MachineFile& machine, Recorded what, dou
   recording.file = "simulated.csv";
   recording.period = machine.period;
   AxisSignals& x = recording.axis[hal::kX];
-  x.command = strokes(seconds, machine.period);
-  const AxisRun run =
-      simulate(axis_setup(machine, hal::kX), differentiate(x.command, machine.period));
+  // The strokes go on when the recording ends.
+  const std::vector<double> positions = strokes(seconds + kGoesOn, machine.period);
+  AxisRun run = simulate(axis_setup(machine, hal::kX), differentiate(positions, machine.period));
+  const auto rows = static_cast<std::size_t>(std::lround(seconds / machine.period));
+  run.rows.resize(rows);
+  x.command.assign(positions.begin(), positions.begin() + static_cast<std::ptrdiff_t>(rows));
   const hal::Dac dac(machine.table.axis[hal::kX].dac_bits);
   for (std::size_t k = 0; k < run.rows.size(); ++k) {
     x.measured.push_back(run.rows[k].encoder);
