@@ -23,6 +23,8 @@ namespace twin::studies::compensate {
 /// along the path are free; what they are good for is the next corner, whose normal they become.
 /// W = (2 pi f)^-3 ends the correction at the frequency f of each axis. The weights j_k and a_k hold
 /// tangential jerk and normal acceleration, and are raised where a limit would not be kept.
+/// An axis that stands still is held by its friction and answers to a lasting offset only, so that
+/// offsets which change there are penalised as well, by sum_k (o + d)'_k^2 / (2 pi f_s T)^2.
 ///
 /// The normal equations are solved by conjugate gradients, with G left out of the preconditioner.
 class OffsetSolver {
@@ -51,6 +53,7 @@ class OffsetSolver {
   double period_;                       // T [s]
   std::array<Filter, 2> responses_;     // G
   std::array<double, 2> smoothness_{};  // W^2
+  std::array<std::vector<bool>, 2> stands_;
   std::vector<Vec2> tangents_;
   std::vector<bool> is_free_along_;  // whether the error along the path is left out
   std::vector<double> sideways_;     // share of j_k that holds the normal direction
