@@ -19,6 +19,10 @@
 #include "runtime/set_points.hpp"
 #include "twin/twin.hpp"
 
+namespace twin::shadow {
+struct ShadowReport;
+}
+
 /// What is behind the public types, for the sources of this folder.
 namespace twin {
 
@@ -58,6 +62,7 @@ struct Inside {
   static Plan plan(const Program& program, const Settings& settings,
                    const runtime::PlanFigures& figures);
   static Settings settings(config::MachineFile machine);
+  static ShadowReport report(const shadow::ShadowReport& seen, const std::string& trace);
   static Summary summary(const results::Summary& summary, const Limits& limits);
 };
 
