@@ -103,6 +103,7 @@ OffsetLearner::OffsetLearner(const config::MachineFile& machine, const ContourPa
 
 bool OffsetLearner::learn(std::span<const Vec2> errors, std::vector<Vec2>& offsets) {
   solver_.note_corners(errors);
+  solver_.relax();
   std::vector<Vec2> improved;
   for (int round = 0; round < kHoldings; ++round) {
     improved = offsets;

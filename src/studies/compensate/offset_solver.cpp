@@ -18,6 +18,7 @@ constexpr double kTangentialHz = 15.0;  // of j_k to begin with
 constexpr double kStandsBelow = 0.02;   // feedrate of an axis at which it stands [mm/s]
 constexpr std::size_t kGrip = 50;       // periods from the end of its motion until it stands still
 constexpr double kStandingHz = 2.0;     // above which an axis that stands does not answer
+constexpr double kRelaxed = 0.1;        // of the weights j_k and a_k before they are held anew
 constexpr double kAtEnds = 1e6;         // weight of what moves before and behind the path
 constexpr double kNormalHz = 60.0;      // of a_k when it is first raised
 constexpr int kMostSteps = 60;          // of the conjugate gradients
@@ -108,8 +109,8 @@ OffsetSolver::OffsetSolver(std::span<const motion::SetPoint> points, double peri
     sideways_.push_back(slow * slow);
     is_free_along_.push_back(speed > kStill);
   }
-  const double held = 1.0 / sixth_power(2.0 * std::numbers::pi * kTangentialHz * period);
-  tangential_.assign(points.size(), held);
+  least_tangential_ = 1.0 / sixth_power(2.0 * std::numbers::pi * kTangentialHz * period);
+  tangential_.assign(points.size(), least_tangential_);
   normal_.assign(points.size(), 0.0);
   prepare();
 }
@@ -126,6 +127,14 @@ void OffsetSolver::note_corners(std::span<const Vec2> errors) {
          near <= std::min(k + kNear, count - 1); ++near) {
       is_free_along_[static_cast<std::size_t>(near)] = false;
     }
+  }
+  prepare();
+}
+
+void OffsetSolver::relax() {
+  for (std::size_t k = 0; k < tangential_.size(); ++k) {
+    tangential_[k] = std::max(kRelaxed * tangential_[k], least_tangential_);
+    normal_[k] *= kRelaxed;
   }
   prepare();
 }

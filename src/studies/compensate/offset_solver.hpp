@@ -40,6 +40,9 @@ class OffsetSolver {
   /// Changes offsets by what undoes these errors. @param errors  (periods) [mm]
   void improve(std::span<const Vec2> errors, std::vector<Vec2>& offsets) const;
 
+  /// Lowers j_k and a_k, j_k not below what it was at first: what held earlier offsets may be more
+  /// than later ones need.
+  void relax();
   /// Multiplies j_k and a_k by factors of at least 1, one a period.
   void hold(std::span<const double> tangential, std::span<const double> normal);
 
@@ -56,6 +59,7 @@ class OffsetSolver {
   std::array<std::vector<bool>, 2> stands_;
   std::vector<Vec2> tangents_;
   std::vector<bool> is_free_along_;  // whether the error along the path is left out
+  double least_tangential_ = 0.0;    // j_k to begin with
   std::vector<double> sideways_;     // share of j_k that holds the normal direction
   std::vector<double> tangential_;   // j_k
   std::vector<double> normal_;       // a_k
