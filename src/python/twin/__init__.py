@@ -20,7 +20,7 @@ from . import _twin
 from ._error import Error
 from ._machine import Machine, Section
 from ._results import Identification, Result, Trace
-from ._twin import Panel, Plan, Program, SetPoint
+from ._twin import Panel, Plan, Program, SetPoint, ShadowFinding, ShadowReport
 
 __version__ = _twin.version
 
@@ -36,18 +36,23 @@ __all__ = [
     "Section",
     "SetPoint",
     "SetPoints",
+    "ShadowFinding",
+    "ShadowReport",
     "Trace",
     "Tuning",
     "check",
     "circle",
     "compare",
+    "compensate",
     "convert",
     "identify",
+    "learn_shadow",
     "plan",
     "read_trace",
     "report",
     "run",
     "tune",
+    "watch",
 ]
 
 _SECONDS_PER_MINUTE = 60.0
@@ -64,6 +69,12 @@ def _program(program, feedrate_mm_per_min):
 
 def _settings(machine):
     return (machine if isinstance(machine, Machine) else Machine(machine))._settings
+
+
+def _paths(given):
+    """Names of one file or of several."""
+    files = [given] if isinstance(given, (str, os.PathLike)) else given
+    return [os.fspath(file) for file in files]
 
 
 def check(program, machine="xy_table.toml", *, feedrate_mm_per_min=None):
@@ -102,6 +113,9 @@ def run(
     wall_clock=False,
     folder=None,
     trace="csv",
+    correction=None,
+    learn=None,
+    shadow=None,
 ):
     """Plans a program, moves the machine along it and records every period.
 
@@ -120,6 +134,11 @@ def run(
         wall_clock: whether a period takes a period of the wall clock
         folder: where trace and summary.json are written while it runs; None: no files
         trace: files of the trace in that folder: "csv", "hdf5", "both" or "none"
+        correction: file of compensate() that the run follows
+        learn: folder in which runs are learnt from: the run follows the correction in it and leaves a
+            better one for the next run
+        shadow: file of learn_shadow(), or "" for what the model alone knows: the identified table runs
+            beside the machine, and the result's shadow is its ShadowReport; None: no shadow
 
     Returns:
         Result; its failure says why a run ended early
@@ -141,8 +160,56 @@ def run(
         panel=panel,
         servo=servo,
         trace_files=trace,
+        correction="" if correction is None else os.fspath(correction),
+        learning="" if learn is None else os.fspath(learn),
+        shadow=None if shadow is None else os.fspath(shadow),
     )
     return Result(outcome, text, settings)
+
+
+def compensate(program, machine="xy_table.toml", *, file, feedrate_mm_per_min=None):
+    """Finds the shifts of the set points by which the identified table meets the programmed path.
+
+    Args:
+        program, machine, feedrate_mm_per_min: as check() has them
+        file: gets the correction, for run(correction=file)
+
+    Returns:
+        dict with the contour error of the model's table in um, mean over phases of encoder and hum:
+        max_um and rms_um, each a pair of without and with the correction; and iterations
+    """
+    made = _twin.compensate(_program(program, feedrate_mm_per_min), _settings(machine), os.fspath(file))
+    um = [1e3 * value for value in made[:4]]
+    return {"max_um": (um[0], um[1]), "rms_um": (um[2], um[3]), "iterations": made[4]}
+
+
+def learn_shadow(traces, machine="xy_table.toml", *, file, columns=""):
+    """Learns what healthy runs of a machine are like.
+
+    Args:
+        traces: a CSV or HDF5 file, or several
+        machine: the machine they were recorded on
+        file: gets what was learnt, for watch() and run(shadow=file)
+        columns: as identify() has them
+
+    Returns:
+        str: what was learnt, a line for each axis and signal
+    """
+    return _twin.learn_shadow(_paths(traces), _settings(machine), os.fspath(file), columns)
+
+
+def watch(traces, machine="xy_table.toml", *, learnt=None, columns=""):
+    """Lets the identified model run beside recorded runs and says what has changed of the machine.
+
+    Args:
+        traces, machine, columns: as learn_shadow() has them
+        learnt: file of learn_shadow(); None: what the model alone knows
+
+    Returns:
+        list of ShadowReport, one for each recording
+    """
+    learnt = "" if learnt is None else os.fspath(learnt)
+    return _twin.watch(_paths(traces), _settings(machine), learnt, columns)
 
 
 def read_trace(file):
@@ -179,17 +246,13 @@ def identify(
     Returns:
         Identification
     """
-    def paths(given):
-        files = [given] if isinstance(given, (str, os.PathLike)) else given
-        return [os.fspath(file) for file in files]
-
     found = _twin.identify(
-        paths(traces),
+        _paths(traces),
         _settings(machine),
         columns=columns,
         fixed=list(fixed),
         freed=list(freed),
-        validating=paths(validate),
+        validating=_paths(validate),
         evaluations=evaluations,
         seed=seed,
     )
