@@ -17,11 +17,8 @@
 #include "runtime/operator_panel.hpp"
 #include "runtime/planning.hpp"
 #include "runtime/set_points.hpp"
+#include "shadow/report.hpp"
 #include "twin/twin.hpp"
-
-namespace twin::shadow {
-struct ShadowReport;
-}
 
 /// What is behind the public types, for the sources of this folder.
 namespace twin {

@@ -17,6 +17,11 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 from . import _twin
+from ._arguments import SECONDS_PER_MINUTE as _SECONDS_PER_MINUTE
+from ._arguments import paths as _paths
+from ._arguments import program_of as _program
+from ._arguments import settings_of as _settings
+from ._beside import compensate, learn_shadow, watch
 from ._error import Error
 from ._machine import Machine, Section
 from ._results import Identification, Result, Trace
@@ -54,28 +59,6 @@ __all__ = [
     "tune",
     "watch",
 ]
-
-_SECONDS_PER_MINUTE = 60.0
-
-
-def _program(program, feedrate_mm_per_min):
-    """A Program of a file's name or a Program, with its F words replaced if a feedrate is given."""
-    if not isinstance(program, Program):
-        program = Program.from_file(os.fspath(program))
-    if feedrate_mm_per_min is not None:
-        program = program.with_feedrate(feedrate_mm_per_min / _SECONDS_PER_MINUTE)
-    return program
-
-
-def _settings(machine):
-    return (machine if isinstance(machine, Machine) else Machine(machine))._settings
-
-
-def _paths(given):
-    """Names of one file or of several."""
-    files = [given] if isinstance(given, (str, os.PathLike)) else given
-    return [os.fspath(file) for file in files]
-
 
 def check(program, machine="xy_table.toml", *, feedrate_mm_per_min=None):
     """Reads a whole program and checks that it stays within the travel of the machine.
@@ -165,51 +148,6 @@ def run(
         shadow=None if shadow is None else os.fspath(shadow),
     )
     return Result(outcome, text, settings)
-
-
-def compensate(program, machine="xy_table.toml", *, file, feedrate_mm_per_min=None):
-    """Finds the shifts of the set points by which the identified table meets the programmed path.
-
-    Args:
-        program, machine, feedrate_mm_per_min: as check() has them
-        file: gets the correction, for run(correction=file)
-
-    Returns:
-        dict with the contour error of the model's table in um, mean over phases of encoder and hum:
-        max_um and rms_um, each a pair of without and with the correction; and iterations
-    """
-    made = _twin.compensate(_program(program, feedrate_mm_per_min), _settings(machine), os.fspath(file))
-    um = [1e3 * value for value in made[:4]]
-    return {"max_um": (um[0], um[1]), "rms_um": (um[2], um[3]), "iterations": made[4]}
-
-
-def learn_shadow(traces, machine="xy_table.toml", *, file, columns=""):
-    """Learns what healthy runs of a machine are like.
-
-    Args:
-        traces: a CSV or HDF5 file, or several
-        machine: the machine they were recorded on
-        file: gets what was learnt, for watch() and run(shadow=file)
-        columns: as identify() has them
-
-    Returns:
-        str: what was learnt, a line for each axis and signal
-    """
-    return _twin.learn_shadow(_paths(traces), _settings(machine), os.fspath(file), columns)
-
-
-def watch(traces, machine="xy_table.toml", *, learnt=None, columns=""):
-    """Lets the identified model run beside recorded runs and says what has changed of the machine.
-
-    Args:
-        traces, machine, columns: as learn_shadow() has them
-        learnt: file of learn_shadow(); None: what the model alone knows
-
-    Returns:
-        list of ShadowReport, one for each recording
-    """
-    learnt = "" if learnt is None else os.fspath(learnt)
-    return _twin.watch(_paths(traces), _settings(machine), learnt, columns)
 
 
 def read_trace(file):
