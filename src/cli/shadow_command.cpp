@@ -13,6 +13,7 @@
 #include "session/results.hpp"
 #include "shadow/report.hpp"
 #include "studies/shadow/recorded_track.hpp"
+#include "studies/shadow/watched_track.hpp"
 
 // The command shadow: learns of recorded runs, or watches them.
 namespace twin::cli {
@@ -44,35 +45,16 @@ Expected<void> learn_tracks(const ShadowCommandArguments& arguments,
   return {};
 }
 
-/// What a shadow is compared with, where nothing was learnt.
-Expected<shadow::Baseline> baseline_of(const ShadowCommandArguments& arguments,
-                                       const config::MachineFile& machine,
-                                       const shadow::Track& track, bool gives) {
-  if (!arguments.learnt.empty()) {
-    return shadow::read_baseline(arguments.learnt, machine);
-  }
-  return shadow::learn_from_model(machine, gives, track.recorded);
-}
-
 Expected<void> watch_track(const ShadowCommandArguments& arguments,
                            const config::MachineFile& machine, const shadow::Track& track,
                            bool gives, const std::filesystem::path& file) {
-  TWIN_TRY(const shadow::Baseline baseline, baseline_of(arguments, machine, track, gives));
-  TWIN_CHECK(shadow::check_signals(baseline, track, machine));
-  shadow::Shadow watcher(machine, baseline, gives, machine.shadow.hours, track.recorded);
-  for (const shadow::ShadowSample& sample : track.samples) {
-    watcher.step(sample);
-  }
-  shadow::ShadowReport report = shadow::make_report(watcher, baseline, machine);
-  report.periods = static_cast<std::int64_t>(track.samples.size());
-  if (watcher.has_failed()) {
-    report.switched_off = "its model is not finite any more";
-  }
+  TWIN_TRY(const shadow::ShadowReport report,
+           studies::shadow::watch_track(machine, track, arguments.learnt, gives));
   TWIN_CHECK(write_whole_file(file, shadow::to_json(report)));
   if (arguments.verbosity == Verbosity::kNormal) {
     print_out("{}\n{}shadow in {}\n", track.name, shadow::to_text(report), file.string());
   }
-  if (watcher.has_failed()) {
+  if (!report.switched_off.empty()) {
     return fail(ErrorCode::kMachine,
                 fmt::format("{}: the model of {} does not stay finite on these drive commands",
                             track.name, machine.name));

@@ -17,6 +17,7 @@
 #include "runtime/operator_panel.hpp"
 #include "runtime/planning.hpp"
 #include "runtime/set_points.hpp"
+#include "shadow/report.hpp"
 #include "twin/twin.hpp"
 
 /// What is behind the public types, for the sources of this folder.
@@ -58,6 +59,7 @@ struct Inside {
   static Plan plan(const Program& program, const Settings& settings,
                    const runtime::PlanFigures& figures);
   static Settings settings(config::MachineFile machine);
+  static ShadowReport report(const shadow::ShadowReport& seen, const std::string& trace);
   static Summary summary(const results::Summary& summary, const Limits& limits);
 };
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
+#include "core/atomic_file.hpp"
 #include "library/inside.hpp"
 #include "results/trace/hdf5_trace.hpp"
+#include "session/results.hpp"
 #include "session/session.hpp"
+#include "shadow/live_shadow.hpp"
+#include "studies/compensate/corrected_run.hpp"
 
 namespace twin {
 namespace {
@@ -38,6 +42,56 @@ session::Request request_of(const Program& program, const Settings& settings, Ma
     request.overrides.push_back({change.time, change.percent});
   }
   return request;
+}
+
+/// The correction of RunOptions::correction and RunOptions::learning, in the request.
+studies::compensate::CorrectedRun correct(const RunOptions& options, session::Request& request) {
+  if (!options.learning.empty() && (!options.correction.empty() || !options.overrides.empty())) {
+    throw Failure({ErrorCode::kUsage,
+                   "a run that is learnt from has its own correction and its programmed feedrate: "
+                   "leave out correction and overrides",
+                   {},
+                   0,
+                   0});
+  }
+  auto corrected = value_of(studies::compensate::CorrectedRun::prepare(
+      {!options.correction.empty(), options.correction, options.learning}, request.program,
+      request.machine, request.feedrate, {options.stop, {}}));
+  request.correction = corrected.correction();
+  if (corrected.sink() != nullptr) {
+    request.sinks.push_back(corrected.sink());
+  }
+  return corrected;
+}
+
+/// The shadow of RunOptions::has_shadow, as a sink of the session; else null.
+std::unique_ptr<shadow::LiveShadow> add_shadow(const RunOptions& options,
+                                               session::Session& session) {
+  if (!options.has_shadow) {
+    return nullptr;
+  }
+  const config::MachineFile& machine = session.machine();
+  check(shadow::check_identified(machine));
+  if (session.hal()->info().follows_reference) {
+    throw Failure(
+        {ErrorCode::kUsage,
+         "a shadow watches a machine with drives, and this one's position is its set point",
+         {},
+         0,
+         0});
+  }
+  const bool gives = value_of(shadow::screws_give(machine));
+  shadow::Recorded recorded;
+  recorded.has_scale = machine.shadow.has_scale;
+  auto baseline = value_of(options.shadow_learnt.empty()
+                               ? shadow::learn_from_model(machine, gives, {recorded, recorded})
+                               : shadow::read_baseline(options.shadow_learnt, machine));
+  shadow::LiveOptions live;
+  live.is_wall_clock = session.is_on_wall_clock();
+  auto made =
+      std::make_unique<shadow::LiveShadow>(machine, std::move(baseline), gives, std::move(live));
+  session.add_sink(*made);
+  return made;
 }
 
 }  // namespace
@@ -83,8 +137,10 @@ void write_hdf5(const MemoryTrace& trace, const Program& program, const Settings
 
 Run run(const Program& program, const Settings& settings, Machine& machine,
         const RunOptions& options) {
-  session::Session session =
-      value_of(session::Session::open(request_of(program, settings, machine, options)));
+  session::Request request = request_of(program, settings, machine, options);
+  studies::compensate::CorrectedRun corrected = correct(options, request);
+  session::Session session = value_of(session::Session::open(std::move(request)));
+  const auto watching = add_shadow(options, session);
   session::Attendance attendance;
   attendance.stop = options.stop;
   if (options.panel != nullptr) {
@@ -93,7 +149,17 @@ Run run(const Program& program, const Settings& settings, Machine& machine,
   }
   attendance.progress = options.progress;
   const runtime::RunResult result = value_of(session.run(attendance));
-  return {Inside::summary(result.summary, session.machine().limits), result.failure};
+  Run run{Inside::summary(result.summary, session.machine().limits), result.failure};
+  if (watching != nullptr) {
+    run.shadow = Inside::report(watching->report(), {});
+    if (!options.folder.empty()) {
+      check(write_whole_file(session.folder() / session::kShadowName, run.shadow->json));
+    }
+  }
+  if (!result.failure) {
+    value_of(corrected.learn_from({options.stop, {}}));
+  }
+  return run;
 }
 
 }  // namespace twin

@@ -40,6 +40,7 @@ struct Outcome {
   std::string table;                   // what `twin run` prints
   std::shared_ptr<MemoryTrace> trace;  // null if none was kept
   std::optional<Error> failure;
+  std::optional<ShadowReport> shadow;
 };
 
 /// Panel orders of Python go to a panel that outlives the run.
@@ -55,6 +56,9 @@ struct Request {
   bool keeps_trace = true;
   bool is_wall_clock = false;
   std::string trace_files = "csv";
+  std::string correction;
+  std::string learning;
+  std::optional<std::string> shadow;  // file of what was learnt, or empty; nothing: no shadow
 };
 
 Outcome run_program(const Program& program, const Settings& settings, const Request& request,
@@ -73,6 +77,10 @@ Outcome run_program(const Program& program, const Settings& settings, const Requ
   options.trace_files = request.trace_files;
   options.is_wall_clock = request.is_wall_clock;
   options.servo = servo;
+  options.correction = request.correction;
+  options.learning = request.learning;
+  options.has_shadow = request.shadow.has_value();
+  options.shadow_learnt = request.shadow.value_or("");
   std::atomic<bool> stop{false};
   options.stop = &stop;
   if (shared) {
@@ -88,6 +96,7 @@ Outcome run_program(const Program& program, const Settings& settings, const Requ
   outcome.summary = run.summary.json();
   outcome.table = run.summary.table();
   outcome.failure = run.failure;
+  outcome.shadow = run.shadow;
   return outcome;
 }
 
@@ -172,6 +181,7 @@ void bind_run(py::module_& module) {
       .def_readonly("summary", &Outcome::summary)
       .def_readonly("table", &Outcome::table)
       .def_readonly("trace", &Outcome::trace)
+      .def_readonly("shadow", &Outcome::shadow)
       .def_property_readonly("failure", [](const Outcome& outcome) {
         return outcome.failure ? error_object(*outcome.failure) : py::none();
       });
@@ -181,17 +191,20 @@ void bind_run(py::module_& module) {
          std::vector<std::string> faults, std::vector<std::pair<double, double>> overrides,
          std::string folder, bool keep_trace, bool wall_clock,
          const std::shared_ptr<SharedPanel>& panel, const py::object& servo,
-         std::string trace_files) {
+         std::string trace_files, std::string correction, std::string learning,
+         std::optional<std::string> shadow) {
         return run(program, settings,
                    {std::move(hal), std::move(faults), std::move(overrides), std::move(folder),
-                    keep_trace, wall_clock, std::move(trace_files)},
+                    keep_trace, wall_clock, std::move(trace_files), std::move(correction),
+                    std::move(learning), std::move(shadow)},
                    panel, servo);
       },
       py::arg("program"), py::arg("settings"), py::kw_only(), py::arg("hal") = "mujoco",
       py::arg("faults") = std::vector<std::string>(),
       py::arg("overrides") = std::vector<std::pair<double, double>>(), py::arg("folder") = "",
       py::arg("keep_trace") = true, py::arg("wall_clock") = false, py::arg("panel") = nullptr,
-      py::arg("servo") = py::none(), py::arg("trace_files") = "csv");
+      py::arg("servo") = py::none(), py::arg("trace_files") = "csv", py::arg("correction") = "",
+      py::arg("learning") = "", py::arg("shadow") = py::none());
 }
 
 }  // namespace twin::python

@@ -8,7 +8,61 @@
 namespace twin::python {
 namespace py = pybind11;
 
+namespace {
+
+void bind_compensation(py::module_& module) {
+  module.def(
+      "compensate",
+      [](const Program& program, const Settings& settings, const std::string& file) {
+        std::atomic<bool> stop{false};
+        const Compensation made =
+            attended([&] { stop = true; },
+                     [&] {
+                       return compensate(program, settings, file, {&stop, {}});
+                     });
+        return py::make_tuple(made.max_before, made.max_after, made.rms_before, made.rms_after,
+                              made.iterations);
+      },
+      py::arg("program"), py::arg("settings"), py::arg("file"));
+}
+
+void bind_shadow(py::module_& module) {
+  py::class_<ShadowFinding>(module, "ShadowFinding")
+      .def_readonly("axis", &ShadowFinding::axis)
+      .def_readonly("cause", &ShadowFinding::cause)
+      .def_readonly("change", &ShadowFinding::change)
+      .def_readonly("deviation", &ShadowFinding::deviation)
+      .def_readonly("since_s", &ShadowFinding::since)
+      .def_readonly("found_s", &ShadowFinding::found)
+      .def_readonly("or_else", &ShadowFinding::or_else)
+      .def("__str__", [](const ShadowFinding& finding) { return finding.text; });
+  py::class_<ShadowReport>(module, "ShadowReport")
+      .def_readonly("trace", &ShadowReport::trace)
+      .def_readonly("findings", &ShadowReport::findings)
+      .def_readonly("switched_off", &ShadowReport::switched_off)
+      .def_readonly("table", &ShadowReport::table)
+      .def_readonly("json", &ShadowReport::json);
+  module.def(
+      "learn_shadow",
+      [](const std::vector<std::string>& traces, const Settings& settings, const std::string& file,
+         const std::string& columns) {
+        return attended([] {}, [&] { return learn_shadow(traces, settings, file, columns); });
+      },
+      py::arg("traces"), py::arg("settings"), py::arg("file"), py::arg("columns"));
+  module.def(
+      "watch",
+      [](const std::vector<std::string>& traces, const Settings& settings,
+         const std::string& learnt, const std::string& columns) {
+        return attended([] {}, [&] { return watch(traces, settings, learnt, columns); });
+      },
+      py::arg("traces"), py::arg("settings"), py::arg("learnt"), py::arg("columns"));
+}
+
+}  // namespace
+
 void bind_studies(py::module_& module) {
+  bind_compensation(module);
+  bind_shadow(module);
   module.def(
       "circle",
       [](const Settings& settings, double radius, double feedrate, std::string folder) {

@@ -14,6 +14,7 @@
 #include "twin/program.hpp"
 #include "twin/servo.hpp"
 #include "twin/settings.hpp"
+#include "twin/shadow.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"
 
@@ -92,6 +93,17 @@ struct RunOptions {
   /// the path. Run::failure, or the Failure, says kInterrupted. May be null; a run with a panel has
   /// Panel::stop() instead.
   const std::atomic<bool>* stop = nullptr;
+  /// File of compensate() that the run follows. Empty: none.
+  std::string correction{};
+  /// Folder in which runs are learnt from: the run follows the correction in it, or one that is made
+  /// now, and leaves a better one for the next run. A run that ends early is not learnt from. Empty:
+  /// nothing is learnt.
+  std::string learning{};
+  /// Lets the identified table run beside the machine, in a thread of its own; Run::shadow says what
+  /// it saw. With a folder of the run it leaves shadow.json there.
+  bool has_shadow = false;
+  /// File of learn_shadow() that the shadow goes by; empty: only the model and its uncertainty.
+  std::string shadow_learnt{};
   /// Position loops in place of those of the settings, or null. They must outlive the run.
   Servo* servo = nullptr;
   /// Called in the thread that called run(), with the share that is done, 0 to 1.
@@ -100,8 +112,9 @@ struct RunOptions {
 
 /// How a run went.
 struct Run {
-  Summary summary;               ///< summary of everything that was recorded
-  std::optional<Error> failure;  ///< why the run ended early; nothing if it reached the end
+  Summary summary;                       ///< summary of everything that was recorded
+  std::optional<Error> failure;          ///< why the run ended early; nothing if it reached the end
+  std::optional<ShadowReport> shadow{};  ///< what the shadow saw, if there was one
 };
 
 /// Plans a program, moves the machine along it, and records every period.

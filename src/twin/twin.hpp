@@ -2,6 +2,7 @@
 
 /// Everything that the library has for other programs.
 #include "twin/batch.hpp"
+#include "twin/compensation.hpp"
 #include "twin/error.hpp"
 #include "twin/identify.hpp"
 #include "twin/interpolator.hpp"
@@ -14,6 +15,7 @@
 #include "twin/servo.hpp"
 #include "twin/set_point.hpp"
 #include "twin/settings.hpp"
+#include "twin/shadow.hpp"
 #include "twin/studies.hpp"
 #include "twin/summary.hpp"
 #include "twin/trace.hpp"

@@ -85,3 +85,38 @@ def test_report_writes_the_page_of_runs(tmp_path):
     assert "<html" in open(both).read()
     with pytest.raises(twin.Error, match="is this the folder of a run"):
         twin.report(tmp_path)
+
+
+@pytest.mark.slow
+def test_a_corrected_run_is_nearer_to_its_path_and_another_program_is_refused(tmp_path):
+    program = twin.Program.from_text("G21 G90\nG1 X8 Y3 F3000\nY9\nX0 Y0\nM30\n")
+    made = twin.compensate(program, file=tmp_path / "c.csv")
+    assert made["max_um"][1] < 0.6 * made["max_um"][0]
+    plain = twin.run(program).summary["contour_error_um"]["rms"]
+    corrected = twin.run(program, correction=tmp_path / "c.csv").summary["contour_error_um"]["rms"]
+    assert corrected < 0.9 * plain
+    other = twin.Program.from_text("G21 G90\nG1 X8 Y3 F3000\nM30\n")
+    with pytest.raises(twin.Error, match="another program"):
+        twin.run(other, correction=tmp_path / "c.csv")
+    twin.run(program, learn=tmp_path / "learnt", keep_trace=False)
+    assert (tmp_path / "learnt/learnt.csv").read_text().startswith("# twin learnt 1, runs = 1")
+
+
+@pytest.mark.slow
+def test_a_shadow_is_silent_on_a_healthy_run_and_names_a_change(tmp_path):
+    healthy = [tmp_path / name for name in ("dolphin", "butterfly")]
+    for folder in healthy:
+        twin.run(f"{folder.name}.nc", folder=folder, keep_trace=False, feedrate_mm_per_min=3000)
+    traces = [folder / "trace.csv" for folder in healthy]
+    assert "axis x" in twin.learn_shadow(traces, file=tmp_path / "healthy.json")
+    shadow = tmp_path / "healthy.json"
+    assert [report.findings for report in twin.watch(traces, learnt=shadow)] == [[], []]
+    changed = twin.Machine()
+    changed["table.x.vref_scale_rpm_per_V"] = 475.0
+    twin.run("dolphin.nc", changed, folder=tmp_path / "run", feedrate_mm_per_min=3000)
+    (report,) = twin.watch(tmp_path / "run/trace.csv", learnt=shadow)
+    (found,) = report.findings
+    assert (found.axis, found.cause) == ("x", "vref_gain") and "axis x" in str(found)
+    assert found.change == pytest.approx(-0.05, abs=0.01)
+    live = twin.run("square.nc", shadow=shadow, keep_trace=False)
+    assert live.failure is None and live.shadow.switched_off == "" and live.shadow.findings == []

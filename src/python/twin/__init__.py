@@ -17,10 +17,15 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 from . import _twin
+from ._arguments import SECONDS_PER_MINUTE as _SECONDS_PER_MINUTE
+from ._arguments import paths as _paths
+from ._arguments import program_of as _program
+from ._arguments import settings_of as _settings
+from ._beside import compensate, learn_shadow, watch
 from ._error import Error
 from ._machine import Machine, Section
 from ._results import Identification, Result, Trace
-from ._twin import Panel, Plan, Program, SetPoint
+from ._twin import Panel, Plan, Program, SetPoint, ShadowFinding, ShadowReport
 
 __version__ = _twin.version
 
@@ -36,35 +41,24 @@ __all__ = [
     "Section",
     "SetPoint",
     "SetPoints",
+    "ShadowFinding",
+    "ShadowReport",
     "Trace",
     "Tuning",
     "check",
     "circle",
     "compare",
+    "compensate",
     "convert",
     "identify",
+    "learn_shadow",
     "plan",
     "read_trace",
     "report",
     "run",
     "tune",
+    "watch",
 ]
-
-_SECONDS_PER_MINUTE = 60.0
-
-
-def _program(program, feedrate_mm_per_min):
-    """A Program of a file's name or a Program, with its F words replaced if a feedrate is given."""
-    if not isinstance(program, Program):
-        program = Program.from_file(os.fspath(program))
-    if feedrate_mm_per_min is not None:
-        program = program.with_feedrate(feedrate_mm_per_min / _SECONDS_PER_MINUTE)
-    return program
-
-
-def _settings(machine):
-    return (machine if isinstance(machine, Machine) else Machine(machine))._settings
-
 
 def check(program, machine="xy_table.toml", *, feedrate_mm_per_min=None):
     """Reads a whole program and checks that it stays within the travel of the machine.
@@ -102,6 +96,9 @@ def run(
     wall_clock=False,
     folder=None,
     trace="csv",
+    correction=None,
+    learn=None,
+    shadow=None,
 ):
     """Plans a program, moves the machine along it and records every period.
 
@@ -120,6 +117,11 @@ def run(
         wall_clock: whether a period takes a period of the wall clock
         folder: where trace and summary.json are written while it runs; None: no files
         trace: files of the trace in that folder: "csv", "hdf5", "both" or "none"
+        correction: file of compensate() that the run follows
+        learn: folder in which runs are learnt from: the run follows the correction in it and leaves a
+            better one for the next run
+        shadow: file of learn_shadow(), or "" for what the model alone knows: the identified table runs
+            beside the machine, and the result's shadow is its ShadowReport; None: no shadow
 
     Returns:
         Result; its failure says why a run ended early
@@ -141,6 +143,9 @@ def run(
         panel=panel,
         servo=servo,
         trace_files=trace,
+        correction="" if correction is None else os.fspath(correction),
+        learning="" if learn is None else os.fspath(learn),
+        shadow=None if shadow is None else os.fspath(shadow),
     )
     return Result(outcome, text, settings)
 
@@ -179,17 +184,13 @@ def identify(
     Returns:
         Identification
     """
-    def paths(given):
-        files = [given] if isinstance(given, (str, os.PathLike)) else given
-        return [os.fspath(file) for file in files]
-
     found = _twin.identify(
-        paths(traces),
+        _paths(traces),
         _settings(machine),
         columns=columns,
         fixed=list(fixed),
         freed=list(freed),
-        validating=paths(validate),
+        validating=_paths(validate),
         evaluations=evaluations,
         seed=seed,
     )

@@ -115,10 +115,39 @@ class Trace(Mapping[str, NDArray[np.float64]]):
     def to_dict(self) -> dict[str, NDArray[np.float64]]: ...
     def write_csv(self, folder: _Path) -> None: ...
 
+class ShadowFinding:
+    @property
+    def axis(self) -> str: ...
+    @property
+    def cause(self) -> str: ...
+    @property
+    def change(self) -> float: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def since_s(self) -> float: ...
+    @property
+    def found_s(self) -> float: ...
+    @property
+    def or_else(self) -> list[str]: ...
+
+class ShadowReport:
+    @property
+    def trace(self) -> str: ...
+    @property
+    def findings(self) -> list[ShadowFinding]: ...
+    @property
+    def switched_off(self) -> str: ...
+    @property
+    def table(self) -> str: ...
+    @property
+    def json(self) -> str: ...
+
 class Result:
     summary: dict[str, Any]
     table: str
     failure: Optional[Error]
+    shadow: Optional[ShadowReport]
     @property
     def trace(self) -> Trace: ...
     def save(self, folder: _Path, trace: _TraceFiles = "csv") -> None: ...
@@ -231,7 +260,31 @@ def run(
     wall_clock: bool = False,
     folder: Optional[_Path] = None,
     trace: _TraceFiles = "csv",
+    correction: Optional[_Path] = None,
+    learn: Optional[_Path] = None,
+    shadow: Optional[_Path] = None,
 ) -> Result: ...
+def compensate(
+    program: Union[_Path, Program],
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    file: _Path,
+    feedrate_mm_per_min: Optional[float] = None,
+) -> dict[str, Any]: ...
+def learn_shadow(
+    traces: Union[_Path, Iterable[_Path]],
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    file: _Path,
+    columns: str = "",
+) -> str: ...
+def watch(
+    traces: Union[_Path, Iterable[_Path]],
+    machine: Union[_Path, Machine] = "xy_table.toml",
+    *,
+    learnt: Optional[_Path] = None,
+    columns: str = "",
+) -> list[ShadowReport]: ...
 def read_trace(file: _Path) -> Trace: ...
 def compare(
     programs: Union[_Path, Program, Iterable[Union[_Path, Program]]],

@@ -76,6 +76,7 @@ class Result:
         table: the figures as text, as `twin run` prints them
         trace: the Trace, or None if none was kept
         failure: the Error that ended the run early, or None if it reached the end
+        shadow: the ShadowReport of a run with a shadow, or None
     """
 
     def __init__(self, outcome, program, settings):
@@ -85,6 +86,7 @@ class Result:
         self.table = outcome.table
         self.trace = None if outcome.trace is None else Trace(outcome.trace)
         self.failure = outcome.failure
+        self.shadow = outcome.shadow
 
     def __repr__(self):
         how = "complete" if self.failure is None else f"ended early: {self.failure}"

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kGain = 0.8;       // of the first step
 constexpr double kGrown = 1.25;     // of the least cost: go back
-constexpr int kPatience = 6;        // iterations without a better one, after which it ends
+constexpr int kPatience = 9;        // iterations without a better one, after which it ends
 constexpr std::size_t kAbout = 40;  // half width of the mean of a gain [periods]
 constexpr double kLittle = 0.995;   // of the cost before: as good as no progress
 constexpr double kBeyond = 1.7;     // times what is trusted, up to which the model is corrected
@@ -103,6 +103,7 @@ OffsetLearner::OffsetLearner(const config::MachineFile& machine, const ContourPa
 
 bool OffsetLearner::learn(std::span<const Vec2> errors, std::vector<Vec2>& offsets) {
   solver_.note_corners(errors);
+  solver_.relax();
   std::vector<Vec2> improved;
   for (int round = 0; round < kHoldings; ++round) {
     improved = offsets;

@@ -18,7 +18,7 @@ namespace twin::studies::compensate {
 /// How offsets are found.
 struct CompensateOptions {
   int most_iterations = 24;
-  std::size_t runs = 8;  ///< of the model in an iteration, each with other phases
+  std::size_t runs = 16;  ///< of the model in an iteration, each with other phases
   /// How far the machine was from where the model would have been with the same offsets, as
   /// measured (periods) [mm]; empty: nothing was measured.
   std::vector<Vec2> mismatch;

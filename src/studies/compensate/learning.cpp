@@ -121,7 +121,8 @@ Expected<void> add_run(const config::MachineFile& machine, const ContourPath& pa
     const auto k = static_cast<Eigen::Index>(axis);
     const AxisResponse response =
         axis_response(machine, axis, machine.compensation.highest_frequency);
-    const double hum = machine.table.axis[axis].drive.hum_frequency_Hz;
+    const hal::mujoco::DriveParams& drive = machine.table.axis[axis].drive;
+    const double hum = drive.hum_amplitude > 0.0 ? drive.hum_frequency_Hz : 0.0;
     std::vector<double> difference(count);
     for (std::size_t i = 0; i < count; ++i) {
       difference[i] = measured[i][k] - model.encoder[i][k];

@@ -15,6 +15,10 @@ constexpr double kNoticed = 5e-4;    // error whose direction is looked at [mm]
 constexpr double kSlanted = 0.5;     // share of it along the path that is no rounding
 constexpr std::ptrdiff_t kNear = 2;  // periods about it that are taken the same
 constexpr double kTangentialHz = 15.0;  // of j_k to begin with
+constexpr double kStandsBelow = 0.02;   // feedrate of an axis at which it stands [mm/s]
+constexpr std::size_t kGrip = 50;       // periods from the end of its motion until it stands still
+constexpr double kStandingHz = 2.0;     // above which an axis that stands does not answer
+constexpr double kRelaxed = 0.1;        // of the weights j_k and a_k before they are held anew
 constexpr double kAtEnds = 1e6;         // weight of what moves before and behind the path
 constexpr double kNormalHz = 60.0;      // of a_k when it is first raised
 constexpr int kMostSteps = 60;          // of the conjugate gradients
@@ -71,6 +75,19 @@ void add_square(BandMatrix& matrix, std::ptrdiff_t first, const std::array<doubl
   }
 }
 
+/// Where an axis stands still: all periods that are kGrip away from any motion of it.
+std::vector<bool> standing(std::span<const motion::SetPoint> points, Eigen::Index axis) {
+  std::vector<bool> stands(points.size(), true);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (std::abs(points[k].velocity[axis]) > kStandsBelow) {
+      const std::size_t end = std::min(k + kGrip + 1, points.size());
+      std::fill(stands.begin() + static_cast<std::ptrdiff_t>(k - std::min(k, kGrip)),
+                stands.begin() + static_cast<std::ptrdiff_t>(end), false);
+    }
+  }
+  return stands;
+}
+
 }  // namespace
 
 OffsetSolver::OffsetSolver(std::span<const motion::SetPoint> points, double period,
@@ -79,6 +96,7 @@ OffsetSolver::OffsetSolver(std::span<const motion::SetPoint> points, double peri
     : period_(period), responses_(responses) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     smoothness_[axis] = 1.0 / sixth_power(2.0 * std::numbers::pi * cut_off[axis] * period);
+    stands_[axis] = standing(points, static_cast<Eigen::Index>(axis));
   }
   Vec2 tangent = Vec2::UnitX();
   for (const motion::SetPoint& point : points) {
@@ -91,8 +109,8 @@ OffsetSolver::OffsetSolver(std::span<const motion::SetPoint> points, double peri
     sideways_.push_back(slow * slow);
     is_free_along_.push_back(speed > kStill);
   }
-  const double held = 1.0 / sixth_power(2.0 * std::numbers::pi * kTangentialHz * period);
-  tangential_.assign(points.size(), held);
+  least_tangential_ = 1.0 / sixth_power(2.0 * std::numbers::pi * kTangentialHz * period);
+  tangential_.assign(points.size(), least_tangential_);
   normal_.assign(points.size(), 0.0);
   prepare();
 }
@@ -109,6 +127,14 @@ void OffsetSolver::note_corners(std::span<const Vec2> errors) {
          near <= std::min(k + kNear, count - 1); ++near) {
       is_free_along_[static_cast<std::size_t>(near)] = false;
     }
+  }
+  prepare();
+}
+
+void OffsetSolver::relax() {
+  for (std::size_t k = 0; k < tangential_.size(); ++k) {
+    tangential_[k] = std::max(kRelaxed * tangential_[k], least_tangential_);
+    normal_[k] *= kRelaxed;
   }
   prepare();
 }
@@ -138,6 +164,14 @@ void OffsetSolver::add_weights() {
     add_square(penalty_, k - 1, kThird, Vec2(-t.y(), t.x()), sideways_[i] * tangential_[i]);
     if (normal_[i] > 0.0) {
       add_square(penalty_, k - 1, kSecond, Vec2(-t.y(), t.x()), normal_[i]);
+    }
+  }
+  const double held = std::pow(2.0 * std::numbers::pi * kStandingHz * period_, -2.0);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    for (std::ptrdiff_t k = 0; k + 1 < count; ++k) {
+      if (stands_[axis][static_cast<std::size_t>(k)]) {
+        add_square(penalty_, k, kFirst, Vec2::Unit(static_cast<Eigen::Index>(axis)), held);
+      }
     }
   }
   for (std::ptrdiff_t k = 0; k < std::min<std::ptrdiff_t>(3, count - 1); ++k) {

@@ -23,6 +23,8 @@ namespace twin::studies::compensate {
 /// along the path are free; what they are good for is the next corner, whose normal they become.
 /// W = (2 pi f)^-3 ends the correction at the frequency f of each axis. The weights j_k and a_k hold
 /// tangential jerk and normal acceleration, and are raised where a limit would not be kept.
+/// An axis that stands still is held by its friction and answers to a lasting offset only, so that
+/// offsets which change there are penalised as well, by sum_k (o + d)'_k^2 / (2 pi f_s T)^2.
 ///
 /// The normal equations are solved by conjugate gradients, with G left out of the preconditioner.
 class OffsetSolver {
@@ -38,6 +40,9 @@ class OffsetSolver {
   /// Changes offsets by what undoes these errors. @param errors  (periods) [mm]
   void improve(std::span<const Vec2> errors, std::vector<Vec2>& offsets) const;
 
+  /// Lowers j_k and a_k, j_k not below what it was at first: what held earlier offsets may be more
+  /// than later ones need.
+  void relax();
   /// Multiplies j_k and a_k by factors of at least 1, one a period.
   void hold(std::span<const double> tangential, std::span<const double> normal);
 
@@ -51,8 +56,10 @@ class OffsetSolver {
   double period_;                       // T [s]
   std::array<Filter, 2> responses_;     // G
   std::array<double, 2> smoothness_{};  // W^2
+  std::array<std::vector<bool>, 2> stands_;
   std::vector<Vec2> tangents_;
   std::vector<bool> is_free_along_;  // whether the error along the path is left out
+  double least_tangential_ = 0.0;    // j_k to begin with
   std::vector<double> sideways_;     // share of j_k that holds the normal direction
   std::vector<double> tangential_;   // j_k
   std::vector<double> normal_;       // a_k

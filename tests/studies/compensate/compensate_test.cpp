@@ -167,6 +167,68 @@ TEST(BandMatrix, SolvesWhatItMultiplied) {
   }
 }
 
+/// A second of motion along x at 50 mm/s, while y stands.
+std::vector<motion::SetPoint> straight_along_x() {
+  std::vector<motion::SetPoint> points(1000);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    points[k].position.x() = 0.05 * static_cast<double>(k);
+    points[k].velocity.x() = 50.0;
+  }
+  return points;
+}
+
+OffsetSolver solver_of(const std::vector<motion::SetPoint>& points) {
+  return OffsetSolver(points, 0.001, {Filter{{1.0}}, Filter{{1.0}}}, {80.0, 80.0});
+}
+
+std::vector<Vec2> offsets_against(const OffsetSolver& solver, double hz, std::size_t periods) {
+  std::vector<Vec2> errors(periods);
+  for (std::size_t k = 0; k < periods; ++k) {
+    errors[k] = {0.0,
+                 0.002 * std::cos(2.0 * std::numbers::pi * hz * 0.001 * static_cast<double>(k))};
+  }
+  std::vector<Vec2> offsets(periods, Vec2::Zero());
+  solver.improve(errors, offsets);
+  return offsets;
+}
+
+TEST(OffsetSolver, AnAxisThatStandsWasDrivenToAndFroByQuickOffsets) {
+  const auto points = straight_along_x();
+  const OffsetSolver solver = solver_of(points);
+  const auto lasting = offsets_against(solver, 0.0, points.size());
+  const auto quick = offsets_against(solver, 10.0, points.size());
+  EXPECT_NEAR(lasting[500].y(), 0.002, 1e-5);
+  EXPECT_LT(std::abs(quick[500].y()), 0.0002);
+}
+
+TEST(OffsetSolver, WeightsThatHeldEarlierOffsetsWereNeverLowered) {
+  const auto points = straight_along_x();
+  const OffsetSolver fresh = solver_of(points);
+  OffsetSolver held = solver_of(points);
+  const std::vector<double> factors(points.size(), 100.0);
+  held.hold(factors, factors);
+  std::vector<Vec2> errors(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    errors[k] = {0.0, std::abs(static_cast<double>(k) - 500.0) < 100.0 ? 0.002 : 0.0};
+  }
+  const auto largest_difference = [&] {
+    std::vector<Vec2> a(points.size(), Vec2::Zero());
+    std::vector<Vec2> b = a;
+    fresh.improve(errors, a);
+    held.improve(errors, b);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      largest = std::max(largest, (a[k] - b[k]).norm());
+    }
+    return largest;
+  };
+  const double before = largest_difference();
+  for (int i = 0; i < 12; ++i) {
+    held.relax();
+  }
+  EXPECT_LT(largest_difference(), 0.01 * before);
+}
+
 TEST(OffsetAudit, MendsOffsetsThatExceedTheJerkAndLeavesOthersAlone) {
   const config::MachineFile machine = clean_machine();
   const auto path =

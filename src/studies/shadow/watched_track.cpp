@@ -1,0 +1,32 @@
+#include "studies/shadow/watched_track.hpp"
+
+namespace twin::studies::shadow {
+namespace {
+
+Expected<twin::shadow::Baseline> baseline_of(const config::MachineFile& machine,
+                                             const twin::shadow::Track& track,
+                                             const std::filesystem::path& learnt, bool gives) {
+  return learnt.empty() ? twin::shadow::learn_from_model(machine, gives, track.recorded)
+                        : twin::shadow::read_baseline(learnt, machine);
+}
+
+}  // namespace
+
+Expected<twin::shadow::ShadowReport> watch_track(const config::MachineFile& machine,
+                                                 const twin::shadow::Track& track,
+                                                 const std::filesystem::path& learnt, bool gives) {
+  TWIN_TRY(const twin::shadow::Baseline baseline, baseline_of(machine, track, learnt, gives));
+  TWIN_CHECK(twin::shadow::check_signals(baseline, track, machine));
+  twin::shadow::Shadow watcher(machine, baseline, gives, machine.shadow.hours, track.recorded);
+  for (const twin::shadow::ShadowSample& sample : track.samples) {
+    watcher.step(sample);
+  }
+  twin::shadow::ShadowReport report = twin::shadow::make_report(watcher, baseline, machine);
+  report.periods = static_cast<std::int64_t>(track.samples.size());
+  if (watcher.has_failed()) {
+    report.switched_off = "its model is not finite any more";
+  }
+  return report;
+}
+
+}  // namespace twin::studies::shadow
