@@ -94,9 +94,9 @@ class Bending {
  public:
   Bending(const Tangent& c, const Quartic& q, double half) noexcept
       : q_(q),
-        a_(cross(c.d0, c.d1) * (1.0 / half)),
+        a_(cross(c.d0, c.d1) / half),
         b_(cross(c.d0, c.d2) * (2.0 / half)),
-        d_(cross(c.d1, c.d2) * (1.0 / half)) {}
+        d_(cross(c.d1, c.d2) / half) {}
 
   double at(double x) const noexcept {
     const double square = value(q_, x);
@@ -179,7 +179,10 @@ struct ArcLength::Builder {
     }
     if (!is_smooth(q, kRadius, kEvenShare) && !is_shorter(q, half, kLengthTolerance) &&
         depth < kMaxDepth) {
-      const auto [left, right] = halves_of(q);
+      const auto [left, right] = sampling == Sampling::kSparse
+                                     ? halves_of(q)
+                                     : std::pair{square_on(cubic, begin, 0.5 * half),
+                                                 square_on(cubic, begin + half, 0.5 * half)};
       add_cubic(cubic, begin, 0.5 * half, left, depth + 1);
       add_cubic(cubic, begin + half, 0.5 * half, right, depth + 1);
       return;
@@ -198,8 +201,12 @@ struct ArcLength::Builder {
   }
 
   void add_cubic(const SpanCubic& cubic, double begin, double half) {
-    const Tangent tangent(cubic, begin + half - cubic.begin, half);
-    add_cubic(cubic, begin, half, tangent.square(), 0);
+    add_cubic(cubic, begin, half, square_on(cubic, begin, half), 0);
+  }
+
+  /// |C'|^2 across an interval.
+  static Quartic square_on(const SpanCubic& cubic, double begin, double half) noexcept {
+    return Tangent(cubic, begin + half - cubic.begin, half).square();
   }
 
   static gauss::Values<5> speeds_of(const Quartic& q) noexcept {
