@@ -193,7 +193,8 @@ std::optional<results::CuttingStats> Recorder::cutting() const {
     return std::nullopt;
   }
   results::CuttingStats cutting;
-  cutting.time = static_cast<double>(figures.command.count()) * options_.period;
+  // The first set point, at rest, has no period before it.
+  cutting.time = std::min(static_cast<double>(figures.command.count()) * options_.period, last_.t);
   cutting.command_contour_error = figures.command.stats();
   if (options_.has_machine) {
     cutting.run =

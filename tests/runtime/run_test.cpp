@@ -154,6 +154,14 @@ TEST_F(RunProgram, TravelIsCheckedBeforeTheMachineIsTouched) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST_F(RunProgram, WhereAllIsCutCuttingTakesTheMachiningTime) {
+  request.program = test::text_of(folder.put("cut.nc", "G1 X10 F600\nX0\n"));
+  test::FakeMachine machine;
+  const auto result = run(&machine);
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_DOUBLE_EQ(result->summary.cutting->time, result->summary.run->machining_time);
+}
+
 TEST_F(RunProgram, ThePenIsDownAtTheProgramsZeroWhateverTheToolsLength) {
   const auto cutting_time = [this](const std::string& before, double length) {
     request.program = test::text_of(
