@@ -42,25 +42,15 @@ Expected<ShadowedRun> ShadowedRun::open(const ShadowArguments& arguments, Verbos
     return fail(ErrorCode::kUsage,
                 "--shadow watches a machine with drives, and this one's position is its set point");
   }
-  TWIN_TRY(const bool gives, shadow::screws_give(machine));
-  shadow::Baseline baseline;
-  if (!arguments.file.empty()) {
-    TWIN_TRY(baseline, shadow::read_baseline(arguments.file, machine));
-  } else {
-    shadow::Recorded recorded;
-    recorded.has_scale = machine.shadow.has_scale;
-    TWIN_TRY(baseline, shadow::learn_from_model(machine, gives, {recorded, recorded}));
-    if (verbosity == Verbosity::kNormal) {
-      print_note(
-          "the shadow knows no healthy runs of this machine, only [uncertainty] of the machine "
-          "file; twin shadow --learn TRACE... makes it keener");
-    }
-  }
   shadow::LiveOptions options;
   options.is_wall_clock = session.is_on_wall_clock();
   options.tell = [](const std::string& line) { print_note(line); };
-  run.shadow_ =
-      std::make_unique<shadow::LiveShadow>(machine, std::move(baseline), gives, std::move(options));
+  TWIN_TRY(run.shadow_, shadow::make_live_shadow(machine, arguments.file, std::move(options)));
+  if (arguments.file.empty() && verbosity == Verbosity::kNormal) {
+    print_note(
+        "the shadow knows no healthy runs of this machine, only [uncertainty] of the machine "
+        "file; twin shadow --learn TRACE... makes it keener");
+  }
   session.add_sink(*run.shadow_);
   return run;
 }

@@ -80,16 +80,9 @@ std::unique_ptr<shadow::LiveShadow> add_shadow(const RunOptions& options,
          0,
          0});
   }
-  const bool gives = value_of(shadow::screws_give(machine));
-  shadow::Recorded recorded;
-  recorded.has_scale = machine.shadow.has_scale;
-  auto baseline = value_of(options.shadow_learnt.empty()
-                               ? shadow::learn_from_model(machine, gives, {recorded, recorded})
-                               : shadow::read_baseline(options.shadow_learnt, machine));
   shadow::LiveOptions live;
   live.is_wall_clock = session.is_on_wall_clock();
-  auto made =
-      std::make_unique<shadow::LiveShadow>(machine, std::move(baseline), gives, std::move(live));
+  auto made = value_of(shadow::make_live_shadow(machine, options.shadow_learnt, std::move(live)));
   session.add_sink(*made);
   return made;
 }

@@ -206,4 +206,14 @@ void LiveShadow::abandon() noexcept {
   }
 }
 
+Expected<std::unique_ptr<LiveShadow>> make_live_shadow(const config::MachineFile& machine,
+                                                       const std::filesystem::path& learnt,
+                                                       LiveOptions options) {
+  TWIN_TRY(const bool gives, screws_give(machine));
+  Recorded recorded;
+  recorded.has_scale = machine.shadow.has_scale;
+  TWIN_TRY(Baseline baseline, baseline_of(machine, learnt, gives, {recorded, recorded}));
+  return std::make_unique<LiveShadow>(machine, std::move(baseline), gives, std::move(options));
+}
+
 }  // namespace twin::shadow

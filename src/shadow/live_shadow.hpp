@@ -4,6 +4,7 @@
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -88,5 +89,12 @@ class LiveShadow final : public TraceSink {
   std::jthread thread_;
   ShadowReport report_;
 };
+
+/// The shadow of an identified machine, which goes by what was learnt of it.
+/// @param machine  outlives the shadow
+/// @param learnt   what healthy runs are like, a file; empty: only the model and its uncertainty
+Expected<std::unique_ptr<LiveShadow>> make_live_shadow(const config::MachineFile& machine,
+                                                       const std::filesystem::path& learnt,
+                                                       LiveOptions options);
 
 }  // namespace twin::shadow

@@ -90,4 +90,11 @@ Expected<Baseline> learn_from_model(const config::MachineFile& machine, bool giv
   return baseline;
 }
 
+Expected<Baseline> baseline_of(const config::MachineFile& machine,
+                               const std::filesystem::path& learnt, bool gives,
+                               const std::array<Recorded, hal::kServoAxes>& recorded) {
+  return learnt.empty() ? learn_from_model(machine, gives, recorded)
+                        : read_baseline(learnt, machine);
+}
+
 }  // namespace twin::shadow

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +61,12 @@ Expected<Baseline> learn(const config::MachineFile& machine, const std::vector<T
 /// parameters is added to their scatter.
 Expected<Baseline> learn_from_model(const config::MachineFile& machine, bool gives,
                                     const std::array<Recorded, hal::kServoAxes>& recorded);
+
+/// What a shadow goes by: a file of what was learnt of healthy runs, or, where that is empty, what the
+/// model has learnt.
+Expected<Baseline> baseline_of(const config::MachineFile& machine,
+                               const std::filesystem::path& learnt, bool gives,
+                               const std::array<Recorded, hal::kServoAxes>& recorded);
 
 /// A model that nobody has identified has no shadow.
 Expected<void> check_identified(const config::MachineFile& machine);

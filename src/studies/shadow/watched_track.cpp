@@ -1,21 +1,12 @@
 #include "studies/shadow/watched_track.hpp"
 
 namespace twin::studies::shadow {
-namespace {
-
-Expected<twin::shadow::Baseline> baseline_of(const config::MachineFile& machine,
-                                             const twin::shadow::Track& track,
-                                             const std::filesystem::path& learnt, bool gives) {
-  return learnt.empty() ? twin::shadow::learn_from_model(machine, gives, track.recorded)
-                        : twin::shadow::read_baseline(learnt, machine);
-}
-
-}  // namespace
 
 Expected<twin::shadow::ShadowReport> watch_track(const config::MachineFile& machine,
                                                  const twin::shadow::Track& track,
                                                  const std::filesystem::path& learnt, bool gives) {
-  TWIN_TRY(const twin::shadow::Baseline baseline, baseline_of(machine, track, learnt, gives));
+  TWIN_TRY(const twin::shadow::Baseline baseline,
+           twin::shadow::baseline_of(machine, learnt, gives, track.recorded));
   TWIN_CHECK(twin::shadow::check_signals(baseline, track, machine));
   twin::shadow::Shadow watcher(machine, baseline, gives, machine.shadow.hours, track.recorded);
   for (const twin::shadow::ShadowSample& sample : track.samples) {
