@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
 #include <future>
 
@@ -47,6 +48,14 @@ auto attended(End end, Work work) {
     throw py::error_already_set();
   }
   return result.get();
+}
+
+/// The same for work that ends early once a flag is set.
+/// @param work  called once with the flag, a `std::atomic<bool>*`
+template <class Work>
+auto stoppable(Work work) {
+  std::atomic<bool> stop{false};
+  return attended([&stop] { stop = true; }, [&stop, &work] { return work(&stop); });
 }
 
 }  // namespace twin::python

@@ -1,8 +1,6 @@
 #include <dlfcn.h>
 #include <pybind11/stl.h>
 
-#include <atomic>
-
 #include "python/attended.hpp"
 #include "python/bindings.hpp"
 
@@ -34,8 +32,7 @@ void bind_batch(py::module_& module) {
   module.def(
       "run_job",
       [](const std::string& job, const std::string& store) {
-        std::atomic<bool> stop{false};
-        return attended([&] { stop = true; }, [&] { return run_job(job, store, &stop); });
+        return stoppable([&](auto* stop) { return run_job(job, store, stop); });
       },
       py::arg("job"), py::arg("store"));
 }

@@ -1,8 +1,6 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include <atomic>
-
 #include "python/attended.hpp"
 #include "python/bindings.hpp"
 
@@ -21,7 +19,6 @@ void bind_identify(py::module_& module) {
       [](const std::vector<std::string>& traces, const Settings& start, std::string columns,
          std::vector<std::string> fixed, std::vector<std::string> freed,
          std::vector<std::string> validating, std::size_t evaluations, std::uint32_t seed) {
-        std::atomic<bool> stop{false};
         IdentifyOptions options;
         options.columns = std::move(columns);
         options.fixed = std::move(fixed);
@@ -29,9 +26,10 @@ void bind_identify(py::module_& module) {
         options.validating = std::move(validating);
         options.evaluations = evaluations;
         options.seed = seed;
-        options.stop = &stop;
-        return attended([&] { stop = true; },
-                        [&] { return twin::identify(traces, start, options); });
+        return stoppable([&](auto* stop) {
+          options.stop = stop;
+          return twin::identify(traces, start, options);
+        });
       },
       py::arg("traces"), py::arg("start"), py::kw_only(), py::arg("columns") = "",
       py::arg("fixed") = std::vector<std::string>(), py::arg("freed") = std::vector<std::string>(),

@@ -1,7 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <atomic>
-
 #include "python/attended.hpp"
 #include "python/bindings.hpp"
 
@@ -37,23 +35,19 @@ void bind_program(py::module_& module) {
       .def_property_readonly("segments", &Plan::segments)
       .def_property_readonly("certified_deviation_mm", &Plan::certified_deviation)
       .def("bound_s", [](const Plan& plan) {
-        std::atomic<bool> stop{false};
-        return attended([&] { stop = true; }, [&] { return plan.bound(&stop); });
+        return stoppable([&](auto* stop) { return plan.bound(stop); });
       });
 
   module.def(
       "check",
       [](const Program& program, const Settings& settings) {
-        std::atomic<bool> stop{false};
-        return figures_of(
-            attended([&] { stop = true; }, [&] { return program.check(settings, &stop); }));
+        return figures_of(stoppable([&](auto* stop) { return program.check(settings, stop); }));
       },
       py::arg("program"), py::arg("settings"));
   module.def(
       "plan",
       [](const Program& program, const Settings& settings) {
-        std::atomic<bool> stop{false};
-        return attended([&] { stop = true; }, [&] { return plan(program, settings, &stop); });
+        return stoppable([&](auto* stop) { return plan(program, settings, stop); });
       },
       py::arg("program"), py::arg("settings"));
 }

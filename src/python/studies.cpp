@@ -1,7 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <atomic>
-
 #include "python/attended.hpp"
 #include "python/bindings.hpp"
 
@@ -14,12 +12,9 @@ void bind_compensation(py::module_& module) {
   module.def(
       "compensate",
       [](const Program& program, const Settings& settings, const std::string& file) {
-        std::atomic<bool> stop{false};
-        const Compensation made =
-            attended([&] { stop = true; },
-                     [&] {
-                       return compensate(program, settings, file, {&stop, {}});
-                     });
+        const Compensation made = stoppable([&](auto* stop) {
+          return compensate(program, settings, file, {stop, {}});
+        });
         return py::make_tuple(made.max_before, made.max_after, made.rms_before, made.rms_after,
                               made.iterations);
       },
@@ -66,10 +61,9 @@ void bind_studies(py::module_& module) {
   module.def(
       "circle",
       [](const Settings& settings, double radius, double feedrate, std::string folder) {
-        std::atomic<bool> stop{false};
-        const CircleOptions options{radius, feedrate, std::move(folder), &stop};
-        const Circle found =
-            attended([&] { stop = true; }, [&] { return circle(settings, options); });
+        const Circle found = stoppable([&](auto* stop) {
+          return circle(settings, {radius, feedrate, std::move(folder), stop});
+        });
         return py::make_tuple(found.table, found.json);
       },
       py::arg("settings"), py::arg("radius_mm"), py::arg("feedrate_mm_per_s"), py::arg("folder"));
@@ -98,23 +92,24 @@ void bind_studies(py::module_& module) {
          double gain_margin_dB, double phase_margin_deg, std::vector<std::string> ranges,
          std::vector<std::string> further, std::size_t trials, std::uint32_t seed, unsigned workers,
          std::string store, std::string folder) {
-        std::atomic<bool> stop{false};
-        const TuneOptions options{.programs = std::move(programs),
-                                  .machine = std::move(machine),
-                                  .feedrate = feedrate,
-                                  .is_for_time = within_um.has_value(),
-                                  .largest_error = within_um.value_or(0.0),
-                                  .gain_margin_dB = gain_margin_dB,
-                                  .phase_margin_deg = phase_margin_deg,
-                                  .ranges = std::move(ranges),
-                                  .further_programs = std::move(further),
-                                  .trials = trials,
-                                  .seed = seed,
-                                  .workers = workers,
-                                  .store = std::move(store),
-                                  .folder = std::move(folder),
-                                  .stop = &stop};
-        const Tuned found = attended([&] { stop = true; }, [&] { return tune(options); });
+        TuneOptions options{.programs = std::move(programs),
+                            .machine = std::move(machine),
+                            .feedrate = feedrate,
+                            .is_for_time = within_um.has_value(),
+                            .largest_error = within_um.value_or(0.0),
+                            .gain_margin_dB = gain_margin_dB,
+                            .phase_margin_deg = phase_margin_deg,
+                            .ranges = std::move(ranges),
+                            .further_programs = std::move(further),
+                            .trials = trials,
+                            .seed = seed,
+                            .workers = workers,
+                            .store = std::move(store),
+                            .folder = std::move(folder)};
+        const Tuned found = stoppable([&](auto* stop) {
+          options.stop = stop;
+          return tune(options);
+        });
         return py::make_tuple(found.table, found.json, found.machine_file);
       },
       py::arg("programs"), py::arg("machine"), py::arg("feedrate_mm_per_s"), py::arg("within_um"),
