@@ -211,7 +211,7 @@ const test = async (name, body) => {
     await live.waitForFunction(() => document.documentElement.dataset.ended, null, {timeout: 20000});
     assert.strictEqual(await ended, 0);
     const shown = await live.evaluate(() => ({n: T.page.state.runs[0].n, t: [...T.page.state.runs[0].t], x: [...T.page.state.runs[0].x]}));
-    assert.ok(shown.n > before);
+    assert.ok(shown.n >= before);  // all of it, where the picture took longer than the run
     const all = trace('live');
     assert.ok(Math.abs(shown.n - all.length / 10) < 0.02 * shown.n, `${shown.n} of ${all.length}`);
     for (let i = 0; i < shown.n; i += 20) {

@@ -183,8 +183,8 @@ TEST(Identify, ATraceThatIsMissingIsNamed) {
 TEST(Identify, ATraceToValidateWithThatIsMissingIsNamed) {
   const test::TempFolder folder;
   std::string trace = "t_s,x_ref_mm,x_enc_mm\n";
-  for (int k = 0; k < 3000; ++k) {
-    const double x = 10.0 - 10.0 * std::cos(2e-3 * k);
+  for (int k = 0; k < 1000; ++k) {
+    const double x = 10.0 - 10.0 * std::cos(6e-3 * k);
     trace += std::to_string(1e-3 * k) + "," + std::to_string(x) + "," +
              std::to_string(0.01 * std::floor(100.0 * x)) + "\n";
   }

@@ -178,6 +178,14 @@ bool has_rapids(const Summary& s) {
   return s.run && s.cutting && s.cutting->time < 0.99 * s.run->machining_time;
 }
 
+/// What is to be thought of a peak beside its limit: differences of set points leave it in doubt by 5 % of the limit (LimitAudit).
+std::string_view verdict(double peak, double limit) {
+  constexpr double kPrinted = 1.0005;
+  constexpr double kDoubt = 1.05;
+  const double share = peak / limit;
+  return share <= kPrinted ? "kept" : share <= kDoubt ? "kept, doubt 5 %" : "exceeded";
+}
+
 /// Peaks along the path beside their limits.
 TextTable peaks_table(const Summary& s, const Limits& limits) {
   TextTable table = statistics_table(s, Group::kPeaks);
@@ -185,7 +193,10 @@ TextTable peaks_table(const Summary& s, const Limits& limits) {
   std::size_t line = 0;
   for (const Quantity& q : quantities()) {
     if (q.group == Group::kPeaks) {
-      table.lines[line++].cells.push_back({q.text(q.limit(limits))});
+      Line& row = table.lines[line++];
+      const double limit = q.limit(limits);
+      row.cells.push_back({q.text(limit)});
+      row.note = fmt::format("{:<6}  {}", row.note, verdict(q.get(s).value_or(0.0), limit));
     }
   }
   return table;

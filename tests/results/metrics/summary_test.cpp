@@ -11,6 +11,7 @@
 namespace twin::results {
 namespace summary_test {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 Summary sample_summary() {
@@ -158,7 +159,20 @@ TEST(SummaryTable, IsShortAlignedAndHasUnits) {
   EXPECT_LE(lines, 24);
   EXPECT_THAT(table, HasSubstr("dolphin.nc on xy_table (mujoco, simulated)"));
   EXPECT_THAT(table, HasSubstr("contour error, encoder          32.000       8.800  um"));
-  EXPECT_THAT(table, HasSubstr("tangential jerk                49999.5     50000.0  mm/s^3"));
+  EXPECT_THAT(table, HasSubstr("tangential jerk                49999.5     50000.0  mm/s^3  kept"));
+}
+
+TEST(SummaryTable, AVerdictStandsBesideEachLimit) {
+  const auto jerk_row = [](double peak) {
+    Summary s = sample_summary();
+    s.audit.tangential_jerk = peak;
+    const std::string table = to_table(s, Limits{});
+    const std::size_t row = table.find("tangential jerk");
+    return table.substr(row, table.find('\n', row) - row);
+  };
+  EXPECT_THAT(jerk_row(50020.0), EndsWith("mm/s^3  kept"));
+  EXPECT_THAT(jerk_row(50062.0), EndsWith("mm/s^3  kept, doubt 5 %"));
+  EXPECT_THAT(jerk_row(53000.0), EndsWith("mm/s^3  exceeded"));
 }
 
 TEST(SummaryJson, WallClockIsThereOnTheWallClockOnly) {

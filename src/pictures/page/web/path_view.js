@@ -24,11 +24,17 @@ T.PathView = class {
       canvas.width = Math.round(w * this.ratio);
       canvas.height = Math.round(h * this.ratio);
     }
-    if (!was || !this.isMoved) this.fit();
-    else this.draw();
+    if (!was || !this.isMoved) this.frame();
+    this.drawNow();  // a canvas of a new size is empty
   }
 
   fit() {
+    this.frame();
+    this.draw();
+  }
+
+  // The whole path into sight; on a narrow page above the legend, which would hide a part of it.
+  frame() {
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const run of this.state.runs) {
       for (let i = 0; i < run.n; ++i) {
@@ -39,11 +45,12 @@ T.PathView = class {
     }
     if (!(x1 >= x0)) [x0, x1, y0, y1] = [-1, 1, -1, 1];
     const margin = Math.min(46, this.width / 9);
+    const foot = this.width < 560 ? this.host.querySelector('.scale').offsetHeight : 0;
+    const height = this.height - foot - 2 * margin;
+    this.view.scale = Math.min((this.width - 2 * margin) / Math.max(x1 - x0, 1e-2), height / Math.max(y1 - y0, 1e-2));
     this.view.x = (x0 + x1) / 2;
-    this.view.y = (y0 + y1) / 2;
-    this.view.scale = Math.min((this.width - 2 * margin) / Math.max(x1 - x0, 1e-2), (this.height - 2 * margin) / Math.max(y1 - y0, 1e-2));
+    this.view.y = (y0 + y1) / 2 - foot / 2 / this.view.scale;
     this.isMoved = false;
-    this.draw();
   }
 
   isShown(run, i) { return this.state.showRapids || run.kind[i] === T.kinds.cut; }
