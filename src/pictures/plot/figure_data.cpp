@@ -15,6 +15,7 @@
 #include "pictures/plot/gnuplot.hpp"
 #include "pictures/plot/motion_filter.hpp"
 #include "pictures/plot/normal_error.hpp"
+#include "results/metrics/moving_rms.hpp"
 #include "results/trace/columns.hpp"
 #include "results/trace/decimator.hpp"
 #include "results/trace/trace_reader.hpp"
@@ -23,7 +24,6 @@ namespace twin::pictures {
 namespace {
 
 constexpr std::size_t kMaxRows = 12000;  // of a figure's data
-constexpr double kRmsTime = 0.1;         // of the moving root mean square [s]
 
 /// Fields of a record: first the columns that are read from the trace, those of a plan in front;
 /// then what is derived.
@@ -178,7 +178,7 @@ class Stream {
       record[kErrorY] = units::um_from_mm(error.y());
       summary_.largest_error_um =
           std::max(summary_.largest_error_um, units::um_from_mm(error.norm()));
-      record[kRms] = rms_of(record[kT], record[kContour]);
+      record[kRms] = rms_.push(record[kT], record[kContour]);
       if (record[kContour] > summary_.worst_um && record[kPenHeight] <= results::kPenUp) {
         summary_.worst_um = record[kContour];
         summary_.worst_at = {record[kEncX], record[kEncY]};
@@ -194,23 +194,11 @@ class Stream {
     pending_.pop_front();
   }
 
-  /// Root mean square of an error over the last kRmsTime.
-  double rms_of(double t, double error) {
-    squares_.push_back({t, error * error});
-    sum_ += error * error;
-    while (squares_.front()[0] < t - kRmsTime) {
-      sum_ -= squares_.front()[1];
-      squares_.pop_front();
-    }
-    return std::sqrt(std::max(sum_, 0.0) / static_cast<double>(squares_.size()));
-  }
-
   const results::ProgramZero& zero_;
   bool plan_only_;
   std::vector<FigureTable> tables_;
-  std::deque<std::array<double, 2>> squares_;  // time and square, of the last kRmsTime
-  double sum_ = 0.0;                           // of the squares
-  std::deque<Record> pending_;                 // records whose motion is not known yet
+  results::MovingRms rms_;
+  std::deque<Record> pending_;  // records whose motion is not known yet
   std::optional<MotionFilter> motion_;
   Record last_{};  // the record before pending_.front()
   DataSummary summary_;

@@ -62,7 +62,8 @@ Script script(const std::string& name, const std::string& settings, const std::s
       "set key at screen 0.5, screen ({5}) center center horizontal Left reverse samplen 2 width "
       "2\n"
       "set tmargin at screen ({6})\n",
-      name, kBlue, kVermilion, kGreen, kGrey, from_top(98, height, 52), from_top(134, height, 104));
+      name, kBlue, kVermilion, kGreen, kGrey, from_top(106, height, 52),
+      from_top(142, height, 104));
   text += settings;
   text += fmt::format(
       "has_cairo = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0\n"

@@ -56,13 +56,13 @@ void PenTrail::advance(const TraceRow& row) {
     return;
   }
   const Vec2 here = map_(row.position.head<2>());
-  largest_error_um_ = std::max(largest_error_um_, row.error_um);
+  largest_rms_um_ = std::max(largest_rms_um_, row.error_rms_um);
   if (last_ && (here - *last_).norm() < shortest) {
     return;
   }
-  canvas_.line(last_.value_or(here), here, scale_.colour(largest_error_um_));
+  canvas_.line(last_.value_or(here), here, scale_.colour(largest_rms_um_));
   last_ = here;
-  largest_error_um_ = 0.0;
+  largest_rms_um_ = 0.0;
 }
 
 }  // namespace twin::pictures::video

@@ -62,9 +62,9 @@ class PenTrail {
   Canvas canvas_;
   Map map_;
   ColourScale scale_;
-  double pen_up_;                  // [mm]
-  std::optional<Vec2> last_;       // end of the last piece [pixels]; none while the pen is up
-  double largest_error_um_ = 0.0;  // since then
+  double pen_up_;                // [mm]
+  std::optional<Vec2> last_;     // end of the last piece [pixels]; none while the pen is up
+  double largest_rms_um_ = 0.0;  // since then
 };
 
 }  // namespace twin::pictures::video

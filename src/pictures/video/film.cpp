@@ -67,7 +67,7 @@ Film::View Film::choose_view(const Survey& survey, const TableScene& scene, bool
 Film::Film(Survey&& survey, TraceRows&& rows, TableScene&& scene, const View& view, int width,
            int height)
     : survey_(std::move(survey)),
-      scale_(survey_.largest_error_um),
+      scale_(survey_.largest_rms_um),
       rows_(std::move(rows)),
       scene_(std::move(scene)),
       view_(view),
@@ -121,8 +121,8 @@ Expected<void> Film::draw_target(const std::filesystem::path& trace_csv) {
 Overlay Film::make_overlay(const std::string& title) {
   return {Font::make(scene_),
           scale_,
-          Strip(survey_.history, survey_.duration, scale_.end_um(), survey_.has_error, width_,
-                strip_height(height_)),
+          Strip(survey_.history, survey_.duration, round_up(survey_.largest_error_um),
+                survey_.has_error, width_, strip_height(height_)),
           title,
           survey_.duration,
           survey_.has_error};

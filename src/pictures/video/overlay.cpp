@@ -20,6 +20,7 @@ constexpr Colour kPen{220, 20, 20};
 constexpr double kPanelPart = 0.72;  // how much of the panel hides what is below
 constexpr int kMargin = 16;          // [pixels]
 constexpr int kScaleHeight = 12;     // [pixels]
+constexpr const char* kScaleName = "contour error, RMS [um]";
 
 /// A dot where the pen is. @param x,y  left upper corner of the inset
 void mark_pen(Image& frame, int x, int y, const Vec2& pen) {
@@ -56,7 +57,7 @@ void Overlay::draw_readout(Image& frame, const TraceRow& row) const {
       {"time", fmt::format("{:.2f} / {:.2f} s", row.t, duration_)},
       {"NC line", fmt::format("{:.0f}", row.line)}};
   if (has_error_) {
-    lines.emplace_back("contour error", fmt::format("{:.1f} um", row.error_um));
+    lines.emplace_back("contour error", fmt::format("{:.1f} um RMS", row.error_rms_um));
   }
   const int column = font_.width("contour error  ");
   const int width = std::max(font_.width(title_), column + font_.width("0000.00 / 0000.00 s"));
@@ -79,8 +80,8 @@ void Overlay::draw_readout(Image& frame, const TraceRow& row) const {
 void Overlay::draw_inset(Image& frame, const Readout& readout) const {
   const Image& inset = readout.inset;
   const int below = has_error_ ? kScaleHeight + font_.height() + kMargin / 2 + 2 : 0;
-  const int width =
-      std::max(inset.width(), has_error_ ? font_.width("00  contour error [um]  00") : 0);
+  const int width = std::max(
+      inset.width(), has_error_ ? font_.width(std::string("000  ") + kScaleName + "  000") : 0);
   const Rectangle panel{frame.width() - width - 2 * kMargin - kMargin / 2,
                         frame.height() - strip_.height() - inset.height() - below - 2 * kMargin,
                         width + kMargin, inset.height() + below + kMargin};
@@ -105,10 +106,9 @@ void Overlay::draw_scale(Image& frame, const Rectangle& area) const {
   }
   const int y = area.y + area.height + 2;
   const std::string end = fmt::format("{:g}", scale_.end_um());
-  const std::string name = "contour error [um]";
   font_.write(frame, area.x, y, "0", kText);
   font_.write(frame, area.x + area.width - font_.width(end), y, end, kText);
-  font_.write(frame, area.x + (area.width - font_.width(name)) / 2, y, name, kLabel);
+  font_.write(frame, area.x + (area.width - font_.width(kScaleName)) / 2, y, kScaleName, kLabel);
 }
 
 Rectangle inset_size(int frame_width, int frame_height, const Vec2& extent) {

@@ -14,12 +14,16 @@ struct Box {
   Vec2 low = Vec2::Constant(HUGE_VAL);
   Vec2 high = Vec2::Constant(-HUGE_VAL);
   double largest_error_um = 0.0;
+  double largest_rms_um = 0.0;
   bool is_empty = true;
 
   void add(const TraceRow& row) {
     low = low.cwiseMin(row.position.head<2>());
     high = high.cwiseMax(row.position.head<2>());
     largest_error_um = std::fmax(largest_error_um, row.error_um);
+    if (row.t >= results::MovingRms::kTime) {  // it is a mean from then on
+      largest_rms_um = std::fmax(largest_rms_um, row.error_rms_um);
+    }
     is_empty = false;
   }
 };
@@ -56,8 +60,9 @@ Expected<Survey> survey_trace(const std::filesystem::path& trace_csv) {
   }
   const Box& box = down.is_empty ? all : down;
   const double pen_up = down.is_empty ? std::numeric_limits<double>::infinity() : results::kPenUp;
-  return Survey{row.t,  rows->has_error(), box.largest_error_um, box.low, box.high,
-                pen_up, std::move(history)};
+  return Survey{
+      row.t,  rows->has_error(), box.largest_error_um, box.largest_rms_um, box.low, box.high,
+      pen_up, std::move(history)};
 }
 
 }  // namespace twin::pictures::video

@@ -11,6 +11,7 @@ struct Survey {
   double duration = 0.0;          ///< time of the last row [s]
   bool has_error = false;         ///< the trace has contour errors
   double largest_error_um = 0.0;  ///< where the pen draws [um]
+  double largest_rms_um = 0.0;    ///< of the moving root mean square there [um]
   Vec2 low = Vec2::Zero();        ///< corner of the drawing's bounding box [mm]
   Vec2 high = Vec2::Zero();       ///< its opposite corner [mm]
   double pen_up = 0.0;            ///< height above which the pen does not draw [mm]

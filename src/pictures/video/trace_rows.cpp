@@ -50,7 +50,9 @@ Expected<bool> TraceRows::next(TraceRow& row) {
                                              : has_error_   ? kOfRun
                                                             : kOfPlan));
   if (got && *got) {
-    row = {v[0], v[1], {v[2], v[3], v[4] - zero_.at(v[0])}, v[5], v[6], {v[2], v[3]}};
+    row = {v[0],        v[1], {v[2], v[3], v[4] - zero_.at(v[0])},
+           v[5],        v[6], rms_.push(v[0], v[6]),
+           {v[2], v[3]}};
     if (has_commanded_) {
       row.commanded = {v[7], v[8]};
     }

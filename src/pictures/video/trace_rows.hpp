@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/vec.hpp"
+#include "results/metrics/moving_rms.hpp"
 #include "results/trace/program_zero.hpp"
 #include "results/trace/trace_reader.hpp"
 
@@ -17,6 +18,7 @@ struct TraceRow {
                                   ///< the program's Z0 [mm]
   double feedrate = 0.0;          ///< [mm/s]
   double error_um = 0.0;          ///< contour error [um]; 0 in a plan
+  double error_rms_um = 0.0;      ///< its root mean square over the last 0.1 s [um]
   Vec2 commanded = Vec2::Zero();  ///< set point [mm]; the position where the trace has none
 };
 
@@ -34,6 +36,7 @@ class TraceRows {
 
   results::TraceReader reader_;
   results::ProgramZero zero_;
+  results::MovingRms rms_;
   bool has_error_ = false;
   bool has_commanded_ = false;
 };

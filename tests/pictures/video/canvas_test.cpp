@@ -96,7 +96,7 @@ PenTrail make_trail() {
 TraceRow row_at(double x, double y, double z, double error_um = 0.0) {
   TraceRow row;
   row.position = {x, y, z};
-  row.error_um = error_um;
+  row.error_rms_um = error_um;
   return row;
 }
 

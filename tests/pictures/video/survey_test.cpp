@@ -26,6 +26,7 @@ TEST(SurveyTrace, LooksOnlyAtWhatThePenDraws) {
   ASSERT_TRUE(survey);
   EXPECT_EQ(survey->duration, 3.0);
   EXPECT_EQ(survey->largest_error_um, 7.0);
+  EXPECT_EQ(survey->largest_rms_um, 7.0);
   EXPECT_EQ(survey->low, Vec2(10, -20));
   EXPECT_EQ(survey->high, Vec2(15, 20));
   EXPECT_EQ(survey->pen_up, 0.1);
