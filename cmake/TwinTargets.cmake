@@ -37,7 +37,7 @@ endif()
 if(TWIN_SANITIZE)
   target_compile_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(twin_options INTERFACE -fsanitize=${TWIN_SANITIZE})
-  if(TWIN_BUILD_FUZZ)
+  if(TWIN_SANITIZE MATCHES "address")
     # The address sanitizer finds what these checks find; at every element of Eigen they take half of the time.
     target_compile_options(twin_options INTERFACE -fno-sanitize=null,alignment)
   endif()

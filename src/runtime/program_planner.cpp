@@ -10,9 +10,13 @@ namespace twin::runtime {
 namespace {
 
 constexpr double kLeadInPeriods = 8.0;  // at the largest feedrate, for corners just behind
-constexpr double kLevel = 1e-6;         // share of A_max that is no acceleration
 constexpr int kTries = 20;              // places looked at for one request
 constexpr double kStride = 0.005;       // between them [s]
+
+/// Acceleration that is none where a plan takes over, which loses it within a period: as a share of A, and of what the
+/// jerk changes in a period. With a low jerk a share of A may be all that a ramp ever has.
+constexpr double kLevel = 1e-6;
+constexpr double kLevelOfJerk = 1e-4;
 
 }  // namespace
 
@@ -144,7 +148,9 @@ Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_at_rest(
 /// The first place ahead where a plan may start; nothing where the path ends before.
 Expected<std::optional<ProgramPlanner::Start>> ProgramPlanner::start_ahead(
     const ReplanRequest& request) {
-  const double tolerance = kLevel * machine_.limits.acceleration;
+  const Limits& limits = machine_.limits;
+  const double tolerance =
+      std::min(kLevel * limits.acceleration, kLevelOfJerk * limits.jerk * machine_.period);
   for (;;) {
     const auto place =
         find_switch_place(active_->phases(), request.from, request.margin, tolerance);

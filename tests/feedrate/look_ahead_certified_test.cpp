@@ -82,6 +82,22 @@ TEST(LookAheadCertified, AHigherLimitNeverMakesAPathSlower) {
   }
 }
 
+// J T / A from 0.16 to 9: bends lose feedrate where the acceleration can swing within a period.
+TEST(LookAheadCertified, AJerkThatReachesTheAccelerationWithinAPeriodMakesNoPathSlower) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 40; ++i) {
+    const auto blocks = random_program(random, 20);
+    double before = std::numeric_limits<double>::infinity();
+    for (double jerk = 4e5; jerk < 2e7; jerk *= 1.5) {
+      PlanSettings settings = certified();
+      settings.limits.jerk = jerk;
+      const double time = plan(blocks, settings).time;
+      EXPECT_LE(time, before * kSlower) << "program " << i << " j " << jerk;
+      before = time;
+    }
+  }
+}
+
 TEST(LookAheadCertified, AHigherFeedrateNeverMakesAPathSlower) {
   std::mt19937 random(7);
   for (int i = 0; i < 100; ++i) {

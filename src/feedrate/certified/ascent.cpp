@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 void Ascent::start(std::span<const LimitZone> zones, std::size_t first, const Anchor& anchor,
                    Sense sense, const RampLimits& ramp, double ceiling) {
   zones_ = zones;
-  next_zone_ = first;
+  first_zone_ = next_zone_ = first;
   origin_ = anchor.s;
   sign_ = static_cast<double>(sense);
   a_max_ = ramp.acceleration;
@@ -39,7 +39,8 @@ double Ascent::leaving_feedrate(const PathMotion& at) const noexcept {
 
 double Ascent::top() const noexcept { return leaving_feedrate(at_); }
 
-/// Adds the step that ends where the next higher limit begins.
+/// Adds the step that ends where the next higher limit begins. The first zone is that of the anchor, which may lie
+/// before it by rounding: a rest there would have to be held up to the zone, and never be left.
 bool Ascent::load_step() {
   if (has_all_steps_) {
     return false;
@@ -51,7 +52,8 @@ bool Ascent::load_step() {
     if (zone.limit <= highest_ || zone.end - zone.begin <= kTouchRounding) {
       continue;
     }
-    steps_.push_back({sign_ * ((sign_ > 0.0 ? zone.begin : zone.end) - origin_), highest_});
+    const double way = sign_ * ((sign_ > 0.0 ? zone.begin : zone.end) - origin_);
+    steps_.push_back({next_zone_ == first_zone_ ? 0.0 : way, highest_});
     highest_ = zone.limit;
     return true;
   }

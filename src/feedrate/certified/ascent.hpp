@@ -66,6 +66,7 @@ class Ascent final : public Rise {
   void follow(const Step& step);
 
   std::span<const LimitZone> zones_;
+  std::size_t first_zone_ = 0;
   std::size_t next_zone_ = 0;  // not yet part of steps_
   double origin_ = 0.0;        // place of the anchor [mm]
   double sign_ = 1.0;

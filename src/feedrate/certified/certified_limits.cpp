@@ -43,18 +43,16 @@ constexpr double kRest = 0.25;
 /// as much leaves a jerk in their set points that nobody planned.
 constexpr double kWindingTurn = 0.4;
 
-/// The same in any bend, where the acceleration can swing within a period (kSwing). Then the
-/// tangential acceleration before and after the middle of the bend has a part square to the path,
-/// which grows with the turn.
-constexpr double kSwingingTurn = 0.2;
-
 /// Feedrate of a turn back, as a share of A T: it changes the velocity by 2 v. Without this floor,
 /// bends of a hundredth of a micrometre would all but stop the motion.
 constexpr double kAnyTurn = 0.25;
 
-/// Share of A by which the acceleration changes in a period, J T / A, from which it swings. Below,
-/// the part of the tangential acceleration is small.
+/// Share of A by which the acceleration changes in a period, J T / A, from which it swings, and the share at which
+/// all of it does: from -A to A. Below, the part of the tangential acceleration that is square to the path is
+/// small. Between them it grows with J, without a step: bends would lose more feedrate there than the ramps
+/// beside them gain, and a higher jerk would be slower.
 constexpr double kSwing = 0.25;
+constexpr double kWholeSwing = 2.0;
 
 /// Ratios of the accelerations and of the jerks that are told apart where they change along a curve.
 /// Larger steps leave less of them, smaller ones make more places where they change.
@@ -76,11 +74,11 @@ void put_on_steps(const RampLimits& most, LimitZone& zone) {
   zone.jerk = on_step(zone.jerk, most.jerk, kJerkStep);
 }
 
-/// Feedrate at which the normal acceleration leaves room for a tangential one A that swings within a
-/// period. With it the direction turns by kappa v T, and so much of A is square to the path:
-///   kappa v^2 + kappa v T A = A.
-double swinging_feedrate(double curvature, double acceleration, double period) {
-  const double b = curvature * period * acceleration;
+/// Feedrate at which the normal acceleration leaves room for a share q of the tangential one that swings within
+/// a period. With it the direction turns by kappa v T, and so much of q A is square to the path:
+///   kappa v^2 + kappa v T q A = A.
+double swinging_feedrate(double curvature, double acceleration, double period, double share) {
+  const double b = curvature * period * share * acceleration;
   return 2.0 * acceleration / (b + std::sqrt(b * b + 4.0 * curvature * acceleration));
 }
 
@@ -118,12 +116,10 @@ double CertifiedLimits::any_turn_feedrate() const noexcept {
   return kAnyTurn * period_ * std::min(limits_.acceleration, limits_.jerk * period_);
 }
 
-/// Largest turn within a period [rad].
-double CertifiedLimits::most_turn(const BendInterval& interval) const noexcept {
-  if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
-    return kSwingingTurn;
-  }
-  return interval.is_winding ? kWindingTurn : std::numeric_limits<double>::infinity();
+/// Share of the acceleration that swings within a period.
+double CertifiedLimits::swinging_share() const noexcept {
+  const double change = limits_.jerk * period_ / limits_.acceleration;
+  return std::clamp((change - kSwing) / (kWholeSwing - kSwing), 0.0, 1.0);
 }
 
 double CertifiedLimits::limit_at(const BendInterval& interval, double feedrate, On what) const {
@@ -133,13 +129,14 @@ double CertifiedLimits::limit_at(const BendInterval& interval, double feedrate, 
   double limit = std::min(by_rule, chord_error_feedrate(at.curvature, chord_error_, period_));
   if (at.curvature > 0.0) {
     limit = std::min(limit, std::sqrt(limits_.acceleration / at.curvature));
-    if (limits_.jerk * period_ > kSwing * limits_.acceleration) {
-      limit =
-          std::min(limit, std::max(swinging_feedrate(at.curvature, limits_.acceleration, period_),
-                                   any_turn_feedrate()));
+    if (const double share = swinging_share(); share > 0.0) {
+      limit = std::min(
+          limit, std::max(swinging_feedrate(at.curvature, limits_.acceleration, period_, share),
+                          any_turn_feedrate()));
     }
-    if (const double turn = most_turn(interval); std::isfinite(turn)) {
-      limit = std::min(limit, std::max(turn / (at.curvature * period_), any_turn_feedrate()));
+    if (interval.is_winding) {
+      limit =
+          std::min(limit, std::max(kWindingTurn / (at.curvature * period_), any_turn_feedrate()));
     }
   }
   return limit;

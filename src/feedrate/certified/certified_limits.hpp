@@ -66,7 +66,7 @@ class CertifiedLimits final : public LimitSource {
   };
 
   double any_turn_feedrate() const noexcept;
-  double most_turn(const BendInterval& interval) const noexcept;
+  double swinging_share() const noexcept;
   double limit_at(const BendInterval& interval, double feedrate, On what) const;
   double dip_limit(const BendPeak& peak, const LimitZone& bend, double feedrate,
                    const Vec3& tangent) const;

@@ -52,6 +52,16 @@ TEST(Ascent, UnderOneLimitIsTheRamp) {
   EXPECT_NEAR(fast.reached(), 100.0 * (200.0 / 2450.0 + 2450.0 / 50000.0), 1e-10);
 }
 
+TEST(Ascent, LeavesARestThatIsBeforeTheFirstZoneByRounding) {
+  Ascent ascent;
+  const std::vector<LimitZone> zones{{4e-10, 100.0, 50.0}};
+  ascent.start(zones, 0, {0.0, 0.0}, Sense::kForward, kTable2, 50.0);
+  ascent.extend();
+  ASSERT_FALSE(ascent.phases().empty());
+  EXPECT_EQ(ascent.phases().front().j, kTable2.jerk);  // not a hold at rest, which has no end
+  EXPECT_GT(ascent.top(), 0.0);
+}
+
 TEST(Ascent, PassesTheEdgeOfAStepWithAccelerationOnTheParabolaOfMinusJ) {
   // The edge lies where the ramp to 50 mm/s has 12 mm/s: -J begins before it and just meets it.
   const double t = std::sqrt(2.0 * 12.0 / 50000.0);

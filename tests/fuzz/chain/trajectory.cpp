@@ -8,7 +8,10 @@
 namespace twin::fuzz {
 namespace {
 
-constexpr double kMostTimes = 4.0;        // of the reference time
+constexpr double kMostTimes = 4.0;  // of the reference time
+/// The same with the paper's planner: a curve that it fits through specks beside long blocks may be some ten times as
+/// long as its blocks.
+constexpr double kMostTimesOfPaper = 40.0;
 constexpr double kMostMore = 2000.0;      // [periods]
 constexpr std::size_t kRestPeriods = 40;  // so many equal set points in a hold are a rest
 
@@ -40,7 +43,9 @@ std::size_t most_steps(const Case& made) {
   }
   const bool is_contact = made.machine.planning.feedrate_rule == FeedrateRule::kContactSpeed;
   const double least = made.reference_time + (is_contact ? edge_time(made) : 0.0);
-  const double time = kMostTimes * least * 100.0 / lowest + end;
+  const bool is_paper = made.machine.path.planner == Planner::kPaper;
+  const double times = is_paper ? kMostTimesOfPaper : kMostTimes;
+  const double time = times * least * 100.0 / lowest + end;
   return static_cast<std::size_t>(time / made.machine.period + kMostMore);
 }
 
