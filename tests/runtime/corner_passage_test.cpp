@@ -68,9 +68,15 @@ void expect_kept(const test::OverrideRun& run, const std::vector<Vec3>& polygon,
     ASSERT_LE((p[i] - 2.0 * p[i - 1] + p[i - 2]).norm(),
               machine.limits.acceleration * t * t * (1.0 + 1e-6))
         << at;
-    ASSERT_LE((p[i] - 3.0 * p[i - 1] + 3.0 * p[i - 2] - p[i - 3]).norm(),
-              machine.limits.jerk * t * t * t * (1.0 + 1e-4) + 1e-12)
-        << at;
+    const Vec3 third = p[i] - 3.0 * p[i - 1] + 3.0 * p[i - 2] - p[i - 3];
+    ASSERT_LE(third.norm(), machine.limits.jerk * t * t * t * (1.0 + 1e-4) + 1e-12) << at;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (machine.limits.axis_jerk[k] > 0.0) {
+        ASSERT_LE(std::abs(third[k]),
+                  machine.limits.axis_jerk[k] * t * t * t * (1.0 + 1e-4) + 1e-12)
+            << at;
+      }
+    }
   }
   ASSERT_LT((p.back() - polygon.back()).norm(), 1e-4);
   for (const Vec3& point : p) {
@@ -106,6 +112,26 @@ TEST(CornerPassage, HoldsOverridesAndNewStartsKeepVectorJerkAndPath) {
     }
     const auto run = test::run_with_overrides(program_of(points, random), machine(), schedule);
     ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, machine())) << i;
+  }
+}
+
+TEST(CornerPassage, HoldsAndOverridesKeepTheJerkOfEachAxis) {
+  config::MachineFile of_axes = machine();
+  of_axes.limits.jerk = 1e6;
+  of_axes.limits.axis_jerk = {50000.0, 20000.0, 0.0};
+  of_axes.limits.axis_acceleration = {2000.0, 1200.0, 0.0};
+  std::mt19937 random(4);
+  for (int i = 0; i < 16; ++i) {
+    const double shortest = i % 2 == 0 ? 3.0 : 8.0;
+    const auto points = any_polygon(random, 10, shortest, 4.0 * shortest);
+    Schedule schedule;
+    double t = 0.0;
+    for (int k = 0; k < 6 && i % 4 != 0; ++k) {
+      t += any(random, 0.01, 0.35);
+      schedule.push_back({t, k % 2 == 0 ? 0.0 : any(random, 20.0, 130.0)});
+    }
+    const auto run = test::run_with_overrides(program_of(points, random), of_axes, schedule);
+    ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, of_axes)) << i;
   }
 }
 

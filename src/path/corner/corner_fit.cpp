@@ -15,7 +15,7 @@ constexpr double kLeastShare = 1e-3;  // of the programmed feedrate
 
 constexpr double kNoPart = 1e-9;  // of a direction along an axis
 
-/// The limits of a passage: those of the path and of every axis that moves, as vectors.
+/// The limits of a passage: those of the path as vectors, and those of every axis that moves.
 CornerDemand demand_of(const CornerLeg& before, const CornerLeg& after, double tolerance,
                        const Limits& limits) {
   CornerDemand demand;
@@ -24,23 +24,25 @@ CornerDemand demand_of(const CornerLeg& before, const CornerLeg& after, double t
   demand.acceleration = limits.acceleration;
   demand.jerk = limits.jerk;
   const Vec3 moves = before.direction.cwiseAbs().cwiseMax(after.direction.cwiseAbs());
-  const auto lower = [](double& value, double limit) {
-    value = limit > 0.0 ? std::min(value, limit) : value;
-  };
   for (int i = 0; i < 3; ++i) {
     if (moves[i] > kNoPart) {
-      lower(demand.feedrate, limits.axis_feedrate[i]);
-      lower(demand.acceleration, limits.axis_acceleration[i]);
-      lower(demand.jerk, limits.axis_jerk[i]);
+      if (limits.axis_feedrate[i] > 0.0) {
+        demand.feedrate = std::min(demand.feedrate, limits.axis_feedrate[i]);
+      }
+      CornerAxis& axis = demand.axes[static_cast<std::size_t>(i)];
+      axis.acceleration = limits.axis_acceleration[i];
+      axis.jerk = limits.axis_jerk[i];
     }
   }
   return demand;
 }
 
 double ramp_time(double change, const CornerDemand& demand) {
-  const double build_up = demand.acceleration / demand.jerk;
-  return change <= demand.acceleration * build_up ? 2.0 * std::sqrt(change / demand.jerk)
-                                                  : change / demand.acceleration + build_up;
+  const double acceleration = demand.least_acceleration();
+  const double jerk = demand.least_jerk();
+  const double build_up = acceleration / jerk;
+  return change <= acceleration * build_up ? 2.0 * std::sqrt(change / jerk)
+                                           : change / acceleration + build_up;
 }
 
 double ramp_way(double v, double w, const CornerDemand& demand) {
@@ -69,9 +71,9 @@ double curve_loss(double width, double turn, const CornerDemand& demand) {
   if (!(width > 0.0)) {
     return std::numeric_limits<double>::infinity();
   }
-  const double v =
-      std::min({demand.feedrate, std::cbrt(kCurveShare * demand.jerk * width * width / turn),
-                std::sqrt(demand.acceleration * width / turn)});
+  const double v = std::min({demand.feedrate,
+                             std::cbrt(kCurveShare * demand.least_jerk() * width * width / turn),
+                             std::sqrt(demand.least_acceleration() * width / turn)});
   const double lost = demand.feedrate - v;
   return (lost * ramp_time(lost, demand) + 2.0 * width * lost / v) / demand.feedrate;
 }

@@ -19,6 +19,23 @@ constexpr std::size_t kMostKept = 8192;
 constexpr long kLast = 900;
 constexpr double kLeast = 1e-9;  // of a cosine
 
+/// Parts of an axis that are told apart, to 1. So much of its limits is lost at most, and with twice
+/// as many, corners of one turn share half as many solutions.
+constexpr double kParts = 512.0;
+
+/// Parts of the axes along the two directions of a corner's plane, rounded up.
+void set_parts(const Vec3& x, const Vec3& y, std::array<CornerAxis, 3>& axes) {
+  const auto rounded = [](double part) {
+    return std::ceil(std::abs(part) * kParts - 1e-6) / kParts;
+  };
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const Vec2 part(rounded(x[k]), rounded(y[k]));
+    axes[i] =
+        part.isZero(0.0) ? CornerAxis{} : CornerAxis{part, axes[i].acceleration, axes[i].jerk};
+  }
+}
+
 }  // namespace
 
 std::optional<CornerMotion> CornerTable::find(const Vec3& corner, const Vec3& incoming,
@@ -35,7 +52,14 @@ std::optional<CornerMotion> CornerTable::find(const Vec3& corner, const Vec3& in
   // Space and time are scaled by one factor, so that the feedrate stays. The acceleration is divided
   // by it, the jerk by its square, and both are stretched by `most` at the utmost.
   const double scale = std::max(most, 1.0);
-  const Key key(place, demand.feedrate, demand.tolerance, demand.acceleration, demand.jerk);
+  set_parts(along / std::max(cosine, kLeast), inside / (2.0 * sine), demand.axes);
+  Key key{static_cast<double>(place), demand.feedrate, demand.tolerance, demand.acceleration,
+          demand.jerk};
+  for (std::size_t i = 0; i < demand.axes.size(); ++i) {
+    const CornerAxis& axis = demand.axes[i];
+    const std::array<double, 4> values{axis.part.x(), axis.part.y(), axis.acceleration, axis.jerk};
+    std::copy(values.begin(), values.end(), key.begin() + static_cast<std::ptrdiff_t>(5 + 4 * i));
+  }
   auto found = halves_.find(key);
   if (found == halves_.end()) {
     if (halves_.size() >= kMostKept) {
@@ -56,8 +80,8 @@ std::optional<CornerMotion> CornerTable::find(const Vec3& corner, const Vec3& in
   passage.y = scale * stretch.y() * inside / inside.norm();
   passage.scale = scale;
   passage.feedrate = demand.feedrate;
-  passage.acceleration = demand.acceleration;
-  passage.jerk = demand.jerk;
+  passage.acceleration = demand.least_acceleration();
+  passage.jerk = demand.least_jerk();
   passage.way = scale * passage.half->way *
                 std::hypot(stretch.x() * std::cos(half_turn), stretch.y() * std::sin(half_turn));
   passage.deviation =

@@ -8,6 +8,14 @@
 
 namespace twin::path {
 
+/// Limits of an axis of the machine. In the plane of the corner it has the parts p along x and y, and of
+/// a vector q it has p_x q_x + p_y q_y in the one half of a passage and p_x q_x - p_y q_y in the other.
+struct CornerAxis {
+  Vec2 part = Vec2::Zero();   ///< |p_x|, |p_y| [-]
+  double acceleration = 0.0;  ///< largest |d2/dt2|; 0: no limit [mm/s^2]
+  double jerk = 0.0;          ///< largest |d3/dt3|; 0: no limit [mm/s^3]
+};
+
 /// What a passage through a corner has to keep.
 struct CornerDemand {
   double half_turn = 0.0;     ///< half of the change of direction phi, 0 < phi < pi / 2 [rad]
@@ -15,6 +23,12 @@ struct CornerDemand {
   double tolerance = 0.0;     ///< e, largest distance between passage and legs [mm]
   double acceleration = 0.0;  ///< A, largest |d2x/dt2| [mm/s^2]
   double jerk = 0.0;          ///< J, largest |d3x/dt3| [mm/s^3]
+  std::array<CornerAxis, 3> axes{};
+
+  /// The least of A, or J, and what axes that have a part in the corner have of it: what a motion in
+  /// any direction may have.
+  double least_acceleration() const noexcept;  ///< [mm/s^2]
+  double least_jerk() const noexcept;          ///< [mm/s^3]
 };
 
 /// Half of a passage through a corner between two straight legs: a motion in time.
@@ -29,7 +43,7 @@ struct CornerDemand {
 /// The jerk vector is constant in each of kPieces pieces of equal duration, so that position,
 /// velocity and acceleration are continuous. In the whole passage
 ///   |d3x/dt3| <= J,   |d2x/dt2| <= A,   |dx/dt| <= V,
-/// the distance from the legs is at most e on either side of them, and the passage comes as close
+/// acceleration and jerk of each axis are within its limits, the distance from the legs is at most e on either side of them, and the passage comes as close
 /// as e to the corner.
 struct HalfCorner {
   static constexpr std::size_t kPieces = 8;
