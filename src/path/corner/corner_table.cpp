@@ -11,6 +11,10 @@ namespace {
 /// twice as many corners have to be solved.
 constexpr double kStep = 0.01;
 
+/// Share of the jerk of the path that a solution may use: the stretched motion has another one, by the
+/// ratio of velocities along y and x, twice in the square of the normal acceleration.
+constexpr double kStretchedJerkUsed = 0.98;
+
 /// Most passages that are kept; then the table is emptied. It bounds the memory, to 4 megabytes.
 constexpr std::size_t kMostKept = 8192;
 
@@ -53,12 +57,12 @@ std::optional<CornerMotion> CornerTable::find(const Vec3& corner, const Vec3& in
   // by it, the jerk by its square, and both are stretched by `most` at the utmost.
   const double scale = std::max(most, 1.0);
   set_parts(along / std::max(cosine, kLeast), inside / (2.0 * sine), demand.axes);
-  Key key{static_cast<double>(place), demand.feedrate, demand.tolerance, demand.acceleration,
-          demand.jerk};
+  Key key{static_cast<double>(place), demand.feedrate, demand.tolerance,
+          demand.acceleration,        demand.jerk,     demand.path_jerk};
   for (std::size_t i = 0; i < demand.axes.size(); ++i) {
     const CornerAxis& axis = demand.axes[i];
     const std::array<double, 4> values{axis.part.x(), axis.part.y(), axis.acceleration, axis.jerk};
-    std::copy(values.begin(), values.end(), key.begin() + static_cast<std::ptrdiff_t>(5 + 4 * i));
+    std::copy(values.begin(), values.end(), key.begin() + static_cast<std::ptrdiff_t>(6 + 4 * i));
   }
   auto found = halves_.find(key);
   if (found == halves_.end()) {
@@ -67,6 +71,7 @@ std::optional<CornerMotion> CornerTable::find(const Vec3& corner, const Vec3& in
     }
     demand.half_turn = half_turn;
     demand.tolerance *= std::exp(-kStep);  // for the largest stretch and scale
+    demand.path_jerk *= kStretchedJerkUsed;
     const std::optional<HalfCorner> half = solve_half_corner(demand);
     found = halves_.emplace(key, half ? std::make_shared<const HalfCorner>(*half) : nullptr).first;
   }

@@ -28,7 +28,7 @@ class CornerTable {
                                    CornerDemand demand);
 
  private:
-  using Key = std::array<double, 5 + 3 * 4>;
+  using Key = std::array<double, 6 + 3 * 4>;
 
   std::map<Key, std::shared_ptr<const HalfCorner>> halves_;
 };

@@ -26,6 +26,11 @@ constexpr double kTimesPerTolerance = 0.29;
 constexpr double kLonger = 1.12;  // the next duration that is tried
 constexpr int kDurations = 4;
 
+/// How often the program is solved anew for the jerk of the path, and the share of that which it may
+/// use, so that little that changes from one solution to the next does not matter.
+constexpr int kMostTurns = 8;
+constexpr double kPathJerkUsed = 0.98;
+
 using Row = HalfCornerProgram::Row;
 
 Vec2 place_after(const HalfCorner::Node& node, double t) {
@@ -97,6 +102,23 @@ bool measure_half(const CornerDemand& demand, HalfCorner& half) {
          jerk <= demand.jerk * over;
 }
 
+/// Largest |d2v/dt2| of the feedrate [mm/s^3].
+double path_jerk_of(const HalfCorner& half) {
+  constexpr int kLooks = 16;
+  double largest = 0.0;
+  for (const HalfCorner::Node& node : half.nodes) {
+    for (int k = 0; k <= kLooks; ++k) {
+      const double t = half.duration / kPieces * k / kLooks;
+      const Vec2 v = velocity_after(node, t);
+      const Vec2 a = node.acceleration + t * node.jerk;
+      const double speed = v.norm();
+      const double normal = (v.x() * a.y() - v.y() * a.x()) / speed;
+      largest = std::max(largest, std::abs(v.dot(node.jerk) + normal * normal) / speed);
+    }
+  }
+  return largest;
+}
+
 /// The pieces of a solution, in mm and s.
 HalfCorner half_of(const Row& unknowns, double length, double time, double piece) {
   HalfCorner half;
@@ -119,6 +141,22 @@ HalfCorner half_of(const Row& unknowns, double length, double time, double piece
   return half;
 }
 
+/// Goes on from a solution to one that keeps the jerk of the path. @returns false where there is none
+bool keep_path_jerk(const CornerDemand& demand, double duration, Row& unknowns) {
+  for (int turn = 0; demand.path_jerk > 0.0; ++turn) {
+    if (path_jerk_of(half_of(unknowns, 1.0, 1.0, duration / kPieces)) <= demand.path_jerk) {
+      return true;
+    }
+    HalfCornerProgram next(demand, duration);
+    next.keep_path_jerk(unknowns, kPathJerkUsed * demand.path_jerk);
+    if (turn == kMostTurns || !next.solve()) {
+      return false;
+    }
+    unknowns = next.unknowns();
+  }
+  return true;
+}
+
 }  // namespace
 
 double CornerDemand::least_acceleration() const noexcept {
@@ -130,7 +168,7 @@ double CornerDemand::least_acceleration() const noexcept {
 }
 
 double CornerDemand::least_jerk() const noexcept {
-  double least = jerk;
+  double least = path_jerk > 0.0 ? std::min(jerk, path_jerk) : jerk;
   for (const CornerAxis& axis : axes) {
     least = axis.jerk > 0.0 ? std::min(least, axis.jerk) : least;
   }
@@ -157,6 +195,7 @@ std::optional<HalfCorner> solve_half_corner(const CornerDemand& demand) {
   scaled.feedrate *= time / length;
   scaled.acceleration *= time * time / length;
   scaled.jerk *= time * time * time / length;
+  scaled.path_jerk *= time * time * time / length;
   for (CornerAxis& axis : scaled.axes) {
     axis.acceleration *= time * time / length;
     axis.jerk *= time * time * time / length;
@@ -169,7 +208,11 @@ std::optional<HalfCorner> solve_half_corner(const CornerDemand& demand) {
       if (!program.solve()) {
         break;
       }
-      HalfCorner half = half_of(program.unknowns(), length, time, duration / kPieces);
+      Row unknowns = program.unknowns();
+      if (!keep_path_jerk(scaled, duration, unknowns)) {
+        break;
+      }
+      HalfCorner half = half_of(unknowns, length, time, duration / kPieces);
       half.feedrate = demand.feedrate;
       if (measure_half(demand, half)) {
         return half;

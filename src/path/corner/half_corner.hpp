@@ -24,9 +24,10 @@ struct CornerDemand {
   double acceleration = 0.0;  ///< A, largest |d2x/dt2| [mm/s^2]
   double jerk = 0.0;          ///< J, largest |d3x/dt3| [mm/s^3]
   std::array<CornerAxis, 3> axes{};
+  double path_jerk = 0.0;  ///< largest |d2v/dt2| of the feedrate v = |dx/dt|; 0: no limit [mm/s^3]
 
-  /// The least of A, or J, and what axes that have a part in the corner have of it: what a motion in
-  /// any direction may have.
+  /// The least of A, or J, of what axes that have a part in the corner have of it, and of the path's:
+  /// what a motion in any direction may have.
   double least_acceleration() const noexcept;  ///< [mm/s^2]
   double least_jerk() const noexcept;          ///< [mm/s^3]
 };
@@ -78,6 +79,10 @@ double half_corner_duration(const CornerDemand& demand) noexcept;
 /// and acceleration at any time are linear in them; each limit is a disc or a strip, and is kept at
 /// the places where it can be exceeded first. It is solved by an interior-point method: Newton's method
 /// on the objective with logarithmic barriers, whose weight falls by steps.
+///
+/// The jerk of the path, d2v/dt2 = t j + a_n^2 / v with t the direction, a_n the normal acceleration and
+/// j the jerk, is not convex. Where it is limited, the program is solved again with t and a_n^2 / v of the
+/// solution before, until its solution keeps the limit.
 ///
 /// @returns nothing where no passage of up to about 1.4 times half_corner_duration() exists
 std::optional<HalfCorner> solve_half_corner(const CornerDemand& demand);

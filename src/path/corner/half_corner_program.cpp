@@ -136,6 +136,24 @@ void HalfCornerProgram::add_limits(const CornerDemand& demand) {
   }
 }
 
+void HalfCornerProgram::keep_path_jerk(const Row& other, double limit) {
+  constexpr int kLooks = 4;
+  for (int i = 0; i < kPieces; ++i) {
+    for (int k = 0; k <= kLooks; ++k) {
+      const double t = piece_ * (i + static_cast<double>(k) / kLooks);
+      const Vec2 v(product(coordinate(0, 1, t), other), product(coordinate(1, 1, t), other));
+      const Vec2 a(product(coordinate(0, 2, t), other), product(coordinate(1, 2, t), other));
+      const double speed = v.norm();
+      const double normal = (v.x() * a.y() - v.y() * a.x()) / speed;
+      Row along{};
+      along[static_cast<std::size_t>(3 + i)] = v.x() / speed;
+      along[static_cast<std::size_t>(3 + kPieces + i)] = v.y() / speed;
+      add(along, Row{}, limit);
+      discs_.back().offset.x() += normal * normal / speed / limit;
+    }
+  }
+}
+
 /// Barriers of all limits, and the weight times what is to be small; infinite outside.
 double HalfCornerProgram::value(const Point& at, double weight) const {
   const double reach = 1.0 + at[kFree];

@@ -25,6 +25,10 @@ class HalfCornerProgram {
   /// @param duration  in those units
   HalfCornerProgram(const CornerDemand& demand, double duration);
 
+  /// Keeps the jerk of the path at the places of each piece as well, with the direction and the normal
+  /// acceleration that another motion has there.
+  void keep_path_jerk(const Row& other, double limit);
+
   /// Finds the solution. @returns false where there is none
   bool solve();
   /// The unknowns of the solution: the velocity along x, the place and the acceleration along y at
