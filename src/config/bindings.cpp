@@ -70,7 +70,8 @@ void add_planning(List& list, PlanningModel& p, PathSettings& s) {
                   "what makes path and feedrates"});
   list.push_back({section, "corners", "",
                   choice(s.corners, {kCornerNames.begin(), kCornerNames.end()}), 0.0, 0.0,
-                  "how corners between lines are passed with limits.jerk_of = vector"});
+                  "how corners between lines are passed where the jerk has limits as a vector or "
+                  "of each axis"});
   list.push_back(
       {section, "kp", "per_s", &p.kp, 1e-3, 1e5, "position gain Kp the planner believes in"});
   list.push_back({section, "kf", "", &p.kf, 0.0, 0.999,

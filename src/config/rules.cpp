@@ -98,12 +98,26 @@ Expected<void> check_jerk(const MachineFile& machine) {
   return {};
 }
 
-/// Refuses a limit of a single axis that all but forbids the axis to move. @param least  as for the
-/// limit of the whole path, in the unit of the key, of which `scale` are a base unit
+/// Refuses a limit of a single axis that forbids the axis to move, or all but does.
+///
+/// Three times 0 is a machine without limits of single axes. A 0 beside a limit is one that was
+/// left out: x and y are the table's axes, and every program moves them. z lifts the pen and may
+/// be left out.
+///
+/// @param least  as for the limit of the whole path, in the unit of the key, of which `scale` are
+///               a base unit
 Expected<void> check_axis_limit(std::string_view key, const Vec3& limit, double scale,
                                 double least) {
   for (Eigen::Index i = 0; i < 3; ++i) {
     const double value = scale * limit[i];
+    if (value == 0.0 && i < 2 && !limit.isZero(0.0)) {
+      return fail(
+          ErrorCode::kFile,
+          fmt::format("limits.{} is [{:g}, {:g}, {:g}], 0 in {}, an axis that must move: "
+                      "give it a limit of at least {:g}, or leave all three at 0, which is "
+                      "no limits of single axes",
+                      key, scale * limit[0], scale * limit[1], scale * limit[2], "xyz"[i], least));
+    }
     if (value > 0.0 && value < least) {
       return fail(ErrorCode::kFile,
                   fmt::format("limits.{} is {:g} in {}: expected 0, which is no limit of its own, "
@@ -124,10 +138,23 @@ Expected<void> check_axis_limits(const Limits& limits) {
           [&] { return check_axis_limit("axis_jerk_mm_per_s3", limits.axis_jerk, 1.0, 1.0); });
 }
 
+/// The paper's planner knows limits along the path only.
+void note_axis_limits(MachineFile& machine) {
+  const Limits& l = machine.limits;
+  if (machine.path.planner == Planner::kPaper &&
+      !(l.axis_feedrate.isZero(0.0) && l.axis_acceleration.isZero(0.0) &&
+        l.axis_jerk.isZero(0.0))) {
+    machine.add_note(
+        "planning.planner = paper does not keep limits.axis_feedrate, "
+        "axis_acceleration, axis_jerk");
+  }
+}
+
 }  // namespace
 
 Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>& given) {
   if (machine.path.planner != Planner::kCertified) {
+    note_axis_limits(machine);
     return check_jerk(machine);
   }
   for (const PaperOnly& setting : paper_only_settings(machine)) {
@@ -141,6 +168,7 @@ Expected<void> resolve_planner(MachineFile& machine, const std::set<std::string>
     machine.add_note(
         fmt::format("planning.planner = paper, because {} = {}", setting.path, setting.value));
   }
+  note_axis_limits(machine);
   return check_jerk(machine);
 }
 

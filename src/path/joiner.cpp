@@ -40,6 +40,8 @@ constexpr double kBumpShareAlong = 0.34;
 constexpr double kLeftShare = 0.05;  // the same of what is left there to the motion along the path
 constexpr double kLeftShareAlong = 0.4;
 
+constexpr double kAnyFeedrate = std::numeric_limits<double>::infinity();
+
 constexpr double kShortestBody = 1e-4;  // between two bumps, unless there is none at all [mm]
 
 /// Spans of a run that wait for its end. The most bound the memory; the fewest let a bump end
@@ -179,11 +181,17 @@ void Joiner::join_to_last() {
                         bump.bend.norm() > (is_curve ? kNoBendOfCurve : kNoJump);
   const bool can_pass = 0.5 * (begin.tangent + end.tangent).norm() >= kLeastPace;
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
-  if (bump.turn.norm() > kNoJump && join_by_passage(width)) {
+  const bool has_room = width >= 2.0 * geometry::kShortestPiece;
+  const auto lost_without_passage = [&](double feedrate) {
+    const Losses lost = losses_at(bump, width, end, begin, feedrate);
+    return has_room ? std::min(lost.in_bump, lost.by_stop) : lost.by_stop;
+  };
+  if (bump.turn.norm() > kNoJump && join_by_passage(width, lost_without_passage)) {
     return;
   }
   const auto is_sharp = [&] {
-    if (width < 2.0 * geometry::kShortestPiece || is_stop_quicker(bump, width, end, begin)) {
+    const Losses lost = losses_at(bump, width, end, begin, kAnyFeedrate);
+    if (!has_room || lost.by_stop < lost.in_bump) {
       return true;
     }
     make_bump(bump, width);
@@ -202,9 +210,11 @@ void Joiner::join_to_last() {
 
 /// Passes the corner between two lines by a motion in time.
 /// @param bump_width  half width of the bump that could be there [mm]
+/// @param other       time that the corner loses without a passage, at a feedrate
 /// @returns false, with nothing done, where there is no better one than the bump
-bool Joiner::join_by_passage(double bump_width) {
-  if (corners_ != CornerKind::kPassage || limits_.jerk_of != JerkOf::kVector ||
+bool Joiner::join_by_passage(double bump_width, const std::function<double(double)>& other) {
+  if (corners_ != CornerKind::kPassage ||
+      (limits_.jerk_of == JerkOf::kPath && limits_.axis_jerk.isZero(0.0)) ||
       before_->kind != Kind::kLine || under_way_->kind != Kind::kLine) {
     return false;
   }
@@ -217,7 +227,7 @@ bool Joiner::join_by_passage(double bump_width) {
                    before_->feedrate, before_->passage},
                   {under_way_->line.direction, after, (1.0 - kMostOfLegBesidePassage) * after,
                    under_way_->feedrate, 0.0},
-                  tolerance, bump_width, limits_, passages_);
+                  tolerance, bump_width, limits_, passages_, other);
   if (!passage) {
     return false;
   }
@@ -247,9 +257,11 @@ double Joiner::bump_width(const geometry::CornerBump& bump) const {
   return left > kNothing && left < least ? width - (least - left) : width;
 }
 
-/// Whether a stop at the corner loses less time than a bump, with what the jerk of axes allows in it.
-bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                             const PathPoint& begin) const {
+/// Times that the corner loses in a bump, with what the jerk of axes allows in it, and with a stop at
+/// the corner itself. A bump that no such jerk limits counts as one that loses nothing.
+/// @param most  feedrate, at most
+Joiner::Losses Joiner::losses_at(const geometry::CornerBump& bump, double width,
+                                 const PathPoint& end, const PathPoint& begin, double most) const {
   const Vec3 along = 0.5 * (end.tangent + begin.tangent).cwiseAbs();
   double v = std::numeric_limits<double>::infinity();
   double left = v;
@@ -268,11 +280,10 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
     v = std::min(v, std::cbrt(jerk * width * width / bump.turn.norm()));
     left = std::min(left, (kLeftShare + kLeftShareAlong) * limits_.jerk);
   }
+  Losses lost;
   if (!std::isfinite(v)) {
-    return false;
+    return lost;
   }
-  double lost_in_bump = 0.0;
-  double lost_by_stop = 0.0;
   const auto add_side = [&](const Element& element, const Vec3& tangent) {
     double jerk = limits_.jerk;
     for (int i = 0; i < 3; ++i) {
@@ -281,13 +292,13 @@ bool Joiner::is_stop_quicker(const geometry::CornerBump& bump, double width, con
       }
     }
     const double room = 0.5 * (element.end - element.begin);
-    const double feedrate = feedrate_within(room, element.feedrate, jerk);
-    lost_in_bump += best_passage({width, v, std::min(left, jerk)}, feedrate, jerk).loss;
-    lost_by_stop += stop_loss(feedrate, jerk);
+    const double feedrate = feedrate_within(room, std::min(element.feedrate, most), jerk);
+    lost.in_bump += best_passage({width, v, std::min(left, jerk)}, feedrate, jerk).loss;
+    lost.by_stop += stop_loss(feedrate, jerk);
   };
   add_side(*before_, end.tangent);
   add_side(*under_way_, begin.tangent);
-  return lost_by_stop < lost_in_bump;
+  return lost;
 }
 
 /// Whether the judge of corners would rather stop than go through the bump that was made.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/limits.hpp"
@@ -83,14 +84,20 @@ class Joiner : public geometry::RunSink {
     geometry::SlidingVector<Span> spans;
   };
 
+  /// Times that a corner loses [s].
+  struct Losses {
+    double in_bump = 0.0;
+    double by_stop = 0.0;
+  };
+
   void begin_element(Kind kind, double begin, double end);
   void join_to_last();
   void end_element();
   void release_spans();
-  bool join_by_passage(double bump_width);
+  bool join_by_passage(double bump_width, const std::function<double(double)>& other);
   double bump_width(const geometry::CornerBump& bump) const;
-  bool is_stop_quicker(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                       const PathPoint& begin) const;
+  Losses losses_at(const geometry::CornerBump& bump, double width, const PathPoint& end,
+                   const PathPoint& begin, double most) const;
   bool is_judged_sharp(double width, const PathPoint& end, const PathPoint& begin);
   void make_bump(const geometry::CornerBump& bump, double width);
   void emit_bump(const geometry::CornerBump& bump, double width);

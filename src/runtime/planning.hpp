@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "config/machine_file.hpp"
@@ -34,14 +35,24 @@ struct PlanFigures {
 ///                            as short, even if a rounded corner makes a part of it a curve
 void count(const path::Segment& segment, double short_block_length, PlanFigures& figures);
 
+/// In which threads a program is planned. The plan is the same.
+enum class PlanThreads : std::uint8_t {
+  kOne,     ///< the caller's
+  kBeside,  ///< a long program: read, and its path built, in two threads beside the caller's, if
+            ///< there is more than one core
+};
+
 /// Plans a whole program, from its text to planned segments: Reader -> path::Builder -> LookAhead.
 ///
-/// @param sink     called with each planned segment; returns false to stop
-/// @param inspect  if given, called with each block before it is planned; its error ends planning
+/// @param sink     called in the caller's thread with each planned segment; returns false to stop.
+///                 Some blocks may have been read beyond what is planned then.
+/// @param inspect  if given, called with each block before it is planned, in the thread that reads;
+///                 its error ends planning
 Expected<PlanFigures> plan_program(
     gcode::Reader& reader, const config::MachineFile& machine,
     const std::function<bool(feedrate::PlannedSegment&&)>& sink,
-    const std::function<Expected<void>(const gcode::Block&)>& inspect = {});
+    const std::function<Expected<void>(const gcode::Block&)>& inspect = {},
+    PlanThreads threads = PlanThreads::kOne);
 
 /// Enters the figures of a plan into a summary.
 ///

@@ -18,10 +18,13 @@ Expected<double> time_bound(const gcode::ProgramText& program, const config::Mac
   const auto wish = [stop] {
     return check_wish(stop, "interrupted: the bound of the time is not known");
   };
-  TWIN_CHECK(plan_program(reader, machine, [&](feedrate::PlannedSegment&& planned) {
-    bound.add(planned);
-    return wish().has_value();
-  }));
+  TWIN_CHECK(plan_program(
+      reader, machine,
+      [&](feedrate::PlannedSegment&& planned) {
+        bound.add(planned);
+        return wish().has_value();
+      },
+      {}, PlanThreads::kBeside));
   TWIN_CHECK(wish());
   bound.finish();
   return bound.with_jerk();

@@ -144,9 +144,13 @@ Expected<Estimate> estimate_program(const gcode::ProgramText& program,
     estimate.is_whole = estimate.is_whole && (!listen || listen(std::move(planned)));
     return estimate.is_whole && check_wish(stop, kNothingMoved);
   };
-  TWIN_TRY(estimate.plan, plan_program(reader, machine, sink, [&](const gcode::Block& block) {
-             return check_wish(stop, kNothingMoved).and_then([&] { return check.add(block); });
-           }));
+  TWIN_TRY(estimate.plan,
+           plan_program(
+               reader, machine, sink,
+               [&](const gcode::Block& block) {
+                 return check_wish(stop, kNothingMoved).and_then([&] { return check.add(block); });
+               },
+               PlanThreads::kBeside));
   if (!estimate.is_whole) {
     TWIN_CHECK(check_rest(reader, check, stop));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,13 +20,15 @@ constexpr std::size_t kMostTools = 1000;  // that are told apart
 constexpr int kPlainOffsets = 6;          // G54 to G59
 constexpr int kNumberedOffsets = 9;       // and G59.1 to G59.3
 
-/// Gathers the tools and the time that goes by with each.
+/// Gathers the tools and the time that goes by with each. Blocks may come in another thread than
+/// segments.
 class ToolWatch {
  public:
   explicit ToolWatch(ProgramReport& report) : report_(report) {}
 
   void add(const gcode::Block& block) {
     if (changes_.empty() || tool_of_last_ != block.tool) {
+      const std::lock_guard lock(mutex_);
       changes_.push_back({moves_, place_of(block)});
       tool_of_last_ = block.tool;
     }
@@ -37,6 +40,7 @@ class ToolWatch {
   }
 
   void add(const feedrate::PlannedSegment& planned) {
+    const std::lock_guard lock(mutex_);
     double time = 0.0;
     for (const feedrate::Phase& phase : planned.phases) {
       time += phase.duration;
@@ -78,6 +82,7 @@ class ToolWatch {
   }
 
   ProgramReport& report_;
+  std::mutex mutex_;  // for changes_ and the length of report_.tools, which blocks change
   std::vector<Change> changes_;
   int tool_of_last_ = 0;
   std::int64_t moves_ = 0;
@@ -161,7 +166,8 @@ Expected<ProgramReport> report_program(const gcode::ProgramText& program,
       [&](const gcode::Block& block) {
         watch.add(block);
         return check_wish(stop, kReportInterrupted).and_then([&] { return check.add(block); });
-      });
+      },
+      PlanThreads::kBeside);
   if (plan) {
     report.machining_time = plan->time;
   } else {

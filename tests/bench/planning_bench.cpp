@@ -13,7 +13,8 @@
 #include "tests/bench/wavy_file.hpp"
 
 /// Read to planned segment, on one core and from a file, so that no program is held in memory; the
-/// reader alone is the reference beside it.
+/// reader alone is the reference beside it. `beside` is on all cores, with rates of wall clock and
+/// the CPU time of all threads.
 ///
 /// Counters: blocks/s, time of one block, peak resident memory of the process in this benchmark.
 namespace twin::runtime {
@@ -40,7 +41,8 @@ void read_only(benchmark::State& state) {
 }
 
 void read_to_planned(benchmark::State& state, double block_length, Planner planner,
-                     CurveKind curves, bench::PathShape shape = bench::PathShape::kWavy) {
+                     CurveKind curves, bench::PathShape shape = bench::PathShape::kWavy,
+                     PlanThreads threads = PlanThreads::kOne) {
   const bench::WavyFile file(state.range(0), block_length, shape);
   config::MachineFile machine;
   machine.path.planner = planner;
@@ -48,10 +50,13 @@ void read_to_planned(benchmark::State& state, double block_length, Planner plann
   bench::reset_peak_memory();
   for (auto _ : state) {
     auto reader = gcode::Reader::open(file.path().string());
-    auto figures = plan_program(*reader, machine, [](feedrate::PlannedSegment&& planned) {
-      benchmark::DoNotOptimize(planned);
-      return true;
-    });
+    auto figures = plan_program(
+        *reader, machine,
+        [](feedrate::PlannedSegment&& planned) {
+          benchmark::DoNotOptimize(planned);
+          return true;
+        },
+        {}, threads);
     if (!figures || figures->fallbacks != 0) {
       state.SkipWithError("the program could not be planned");
     }
@@ -112,6 +117,20 @@ BENCHMARK_CAPTURE(read_to_planned, certified_zigzag, 0.1, Planner::kCertified, C
                   bench::PathShape::kZigzag)
     ->RangeMultiplier(10)
     ->Range(kFewest, kMost)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, beside_0_26_mm, 0.26, Planner::kCertified, CurveKind::kNurbs,
+                  bench::PathShape::kWavy, PlanThreads::kBeside)
+    ->RangeMultiplier(10)
+    ->Range(kFewest, kMost)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_to_planned, beside_zigzag, 0.1, Planner::kCertified, CurveKind::kNurbs,
+                  bench::PathShape::kZigzag, PlanThreads::kBeside)
+    ->RangeMultiplier(10)
+    ->Range(kFewest, kMost)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(read_to_planned, paper_0_02_mm, 0.02, Planner::kPaper, CurveKind::kNurbs)
     ->Arg(100000)

@@ -82,14 +82,35 @@ TEST(MachineFile, RefusalsNamePlaceValueUnitAndRange) {
 }
 
 TEST(MachineFile, ALimitThatKeepsAnAxisFromMovingIsRefused) {
-  EXPECT_THAT(refusal("[limits]\naxis_jerk_mm_per_s3 = [0, 0.5, 0]\n"),
+  EXPECT_THAT(refusal("[limits]\naxis_jerk_mm_per_s3 = [1, 0.5, 0]\n"),
               HasSubstr("limits.axis_jerk_mm_per_s3 is 0.5 in y: expected 0, which is no limit of "
                         "its own, or at least 1"));
   EXPECT_THAT(refusal("[limits]\naxis_feedrate_mm_per_min = [0.25, 0, 0]\n"),
               HasSubstr("limits.axis_feedrate_mm_per_min is 0.25 in x"));
-  EXPECT_THAT(refusal("[limits]\naxis_acceleration_mm_per_s2 = [0, 0, 1e-9]\n"),
+  EXPECT_THAT(refusal("[limits]\naxis_acceleration_mm_per_s2 = [9, 9, 1e-9]\n"),
               HasSubstr("limits.axis_acceleration_mm_per_s2 is 1e-09 in z"));
-  EXPECT_EQ(parsed("[limits]\naxis_jerk_mm_per_s3 = [0, 1, 0]\n").limits.axis_jerk.y(), 1.0);
+  EXPECT_EQ(parsed("[limits]\naxis_jerk_mm_per_s3 = [9, 1, 0]\n").limits.axis_jerk.y(), 1.0);
+}
+
+TEST(MachineFile, AnAxisWithoutALimitBesideOneThatHasOneIsRefused) {
+  EXPECT_THAT(refusal("[limits]\naxis_jerk_mm_per_s3 = [0, 50000, 0]\n"),
+              HasSubstr("limits.axis_jerk_mm_per_s3 is [0, 50000, 0], 0 in x, an axis that must "
+                        "move: give it a limit of at least 1, or leave all three at 0"));
+  EXPECT_THAT(refusal("[limits]\naxis_feedrate_mm_per_min = [600, 0, 600]\n"),
+              HasSubstr("limits.axis_feedrate_mm_per_min is [600, 0, 600], 0 in y"));
+  EXPECT_THAT(refusal("[limits]\naxis_acceleration_mm_per_s2 = [0, 0, 100]\n"),
+              HasSubstr("limits.axis_acceleration_mm_per_s2 is [0, 0, 100], 0 in x"));
+  EXPECT_EQ(parsed("[limits]\naxis_jerk_mm_per_s3 = [9, 8, 0]\n").limits.axis_jerk.z(), 0.0);
+}
+
+TEST(MachineFile, NoJerkIsRefused) {
+  EXPECT_THAT(refusal("[limits]\njerk = 0\n"),
+              HasSubstr("limits.jerk_mm_per_s3 = 0 mm/s^3 is out of range: 1 to 1e+09 mm/s^3"));
+}
+
+TEST(MachineFile, AToleranceBelowWhatCoordinatesResolveIsRefused) {
+  EXPECT_THAT(refusal("[planning]\nchord_error = 1e-12\n"),
+              HasSubstr("planning.chord_error_mm = 1e-12 mm is out of range: 1e-06 to 10 mm"));
 }
 
 TEST(MachineFile, UnknownNamesSuggestTheNearest) {

@@ -161,6 +161,13 @@ TEST(Overrides, AskingForTheCertifiedPlannerAndWhatItDoesNotHaveIsRefused) {
   EXPECT_THAT(paper.notes, IsEmpty());
 }
 
+TEST(Overrides, ThatThePapersPlannerKeepsNoLimitsOfAxesIsSaid) {
+  MachineFile machine;
+  ASSERT_TRUE(apply_overrides(
+      machine, std::vector<std::string>{"limits.axis_jerk=[9e3,9e3,0]", "planning.planner=paper"}));
+  EXPECT_THAT(machine.notes, ElementsAre(HasSubstr("paper does not keep limits.axis_feedrate")));
+}
+
 TEST(Overrides, LaterOnesWin) {
   MachineFile machine;
   const std::vector<std::string> texts{"limits.jerk=1000", "limits.jerk_mm_per_s3=2000"};

@@ -68,9 +68,15 @@ void expect_kept(const test::OverrideRun& run, const std::vector<Vec3>& polygon,
     ASSERT_LE((p[i] - 2.0 * p[i - 1] + p[i - 2]).norm(),
               machine.limits.acceleration * t * t * (1.0 + 1e-6))
         << at;
-    ASSERT_LE((p[i] - 3.0 * p[i - 1] + 3.0 * p[i - 2] - p[i - 3]).norm(),
-              machine.limits.jerk * t * t * t * (1.0 + 1e-4) + 1e-12)
-        << at;
+    const Vec3 third = p[i] - 3.0 * p[i - 1] + 3.0 * p[i - 2] - p[i - 3];
+    ASSERT_LE(third.norm(), machine.limits.jerk * t * t * t * (1.0 + 1e-4) + 1e-12) << at;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (machine.limits.axis_jerk[k] > 0.0) {
+        ASSERT_LE(std::abs(third[k]),
+                  machine.limits.axis_jerk[k] * t * t * t * (1.0 + 1e-4) + 1e-12)
+            << at;
+      }
+    }
   }
   ASSERT_LT((p.back() - polygon.back()).norm(), 1e-4);
   for (const Vec3& point : p) {
@@ -106,6 +112,68 @@ TEST(CornerPassage, HoldsOverridesAndNewStartsKeepVectorJerkAndPath) {
     }
     const auto run = test::run_with_overrides(program_of(points, random), machine(), schedule);
     ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, machine())) << i;
+  }
+}
+
+TEST(CornerPassage, HoldsAndOverridesKeepTheJerkOfEachAxis) {
+  config::MachineFile of_axes = machine();
+  of_axes.limits.jerk = 1e6;
+  of_axes.limits.axis_jerk = {50000.0, 20000.0, 0.0};
+  of_axes.limits.axis_acceleration = {2000.0, 1200.0, 0.0};
+  std::mt19937 random(4);
+  for (int i = 0; i < 16; ++i) {
+    const double shortest = i % 2 == 0 ? 3.0 : 8.0;
+    const auto points = any_polygon(random, 10, shortest, 4.0 * shortest);
+    Schedule schedule;
+    double t = 0.0;
+    for (int k = 0; k < 6 && i % 4 != 0; ++k) {
+      t += any(random, 0.01, 0.35);
+      schedule.push_back({t, k % 2 == 0 ? 0.0 : any(random, 20.0, 130.0)});
+    }
+    const auto run = test::run_with_overrides(program_of(points, random), of_axes, schedule);
+    ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, of_axes)) << i;
+  }
+}
+
+/// Largest |d2v/dt2| of the set points' speed over two periods at a time; at a turn within a period the
+/// speed of a chord is less than that of the path, by at most the square of the turn.
+double path_jerk_of(const test::OverrideRun& run, double period) {
+  std::vector<double> v;
+  for (std::size_t i = 1; i < run.samples.size(); ++i) {
+    v.push_back((run.samples[i].command - run.samples[i - 1].command).norm() / period);
+  }
+  double largest = 0.0;
+  for (std::size_t i = 4; i < v.size(); ++i) {
+    largest =
+        std::max(largest, std::abs(v[i] - 2.0 * v[i - 2] + v[i - 4]) / (4.0 * period * period));
+  }
+  return largest;
+}
+
+TEST(CornerPassage, UnderTheJerkOfThePathHoldsAndOverridesKeepItAndThatOfEachAxis) {
+  config::MachineFile of_path;
+  of_path.limits.axis_jerk = {50000.0, 40000.0, 0.0};
+  of_path.limits.axis_acceleration = {2000.0, 1500.0, 0.0};
+  config::MachineFile judge = of_path;
+  judge.limits.jerk = of_path.limits.axis_jerk.norm();
+  std::mt19937 random(5);
+  for (int i = 0; i < 16; ++i) {
+    std::vector<Vec3> points{Vec3::Zero()};
+    double heading = 0.0;
+    for (int k = 0; k < 8; ++k) {
+      points.push_back(points.back() +
+                       any(random, 4.0, 16.0) * Vec3(std::cos(heading), std::sin(heading), 0.0));
+      heading += any(random, 0.08, 0.6) * (random() % 2 == 0 ? 1.0 : -1.0);
+    }
+    Schedule schedule;
+    double t = 0.0;
+    for (int k = 0; k < 6 && i % 4 != 0; ++k) {
+      t += any(random, 0.01, 0.35);
+      schedule.push_back({t, k % 2 == 0 ? 0.0 : any(random, 20.0, 130.0)});
+    }
+    const auto run = test::run_with_overrides(program_of(points, random), of_path, schedule);
+    ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, judge)) << i;
+    ASSERT_LE(path_jerk_of(run, of_path.period), 1.03 * of_path.limits.jerk) << i;
   }
 }
 

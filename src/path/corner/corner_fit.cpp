@@ -15,7 +15,23 @@ constexpr double kLeastShare = 1e-3;  // of the programmed feedrate
 
 constexpr double kNoPart = 1e-9;  // of a direction along an axis
 
-/// The limits of a passage: those of the path and of every axis that moves, as vectors.
+/// Turns of more than this are not passed under the jerk of the path: they would lose more than a stop. It
+/// saves looking for a passage, which takes a millisecond a corner. Change of direction, 0.8: 47 degrees.
+constexpr double kMostTurnByPath = 0.8;
+
+/// The largest part of the motion that each axis has.
+Vec3 moves_of(const CornerLeg& before, const CornerLeg& after) {
+  return before.direction.cwiseAbs().cwiseMax(after.direction.cwiseAbs());
+}
+
+/// Whether the jerk of a passage has a bound: as a vector, or by the limits of all axes that move.
+bool has_bounded_jerk(const CornerLeg& before, const CornerLeg& after, const Limits& limits) {
+  const Vec3 moves = moves_of(before, after);
+  return limits.jerk_of == JerkOf::kVector ||
+         ((moves.array() <= kNoPart) || (limits.axis_jerk.array() > 0.0)).all();
+}
+
+/// The limits of a passage: those of the path as vectors, and those of every axis that moves.
 CornerDemand demand_of(const CornerLeg& before, const CornerLeg& after, double tolerance,
                        const Limits& limits) {
   CornerDemand demand;
@@ -23,24 +39,30 @@ CornerDemand demand_of(const CornerLeg& before, const CornerLeg& after, double t
   demand.tolerance = tolerance;
   demand.acceleration = limits.acceleration;
   demand.jerk = limits.jerk;
-  const Vec3 moves = before.direction.cwiseAbs().cwiseMax(after.direction.cwiseAbs());
-  const auto lower = [](double& value, double limit) {
-    value = limit > 0.0 ? std::min(value, limit) : value;
-  };
+  const Vec3 moves = moves_of(before, after);
+  if (limits.jerk_of == JerkOf::kPath) {
+    demand.jerk = limits.axis_jerk.norm();  // no more, with the limits of the axes
+    demand.path_jerk = limits.jerk;
+  }
   for (int i = 0; i < 3; ++i) {
     if (moves[i] > kNoPart) {
-      lower(demand.feedrate, limits.axis_feedrate[i]);
-      lower(demand.acceleration, limits.axis_acceleration[i]);
-      lower(demand.jerk, limits.axis_jerk[i]);
+      if (limits.axis_feedrate[i] > 0.0) {
+        demand.feedrate = std::min(demand.feedrate, limits.axis_feedrate[i]);
+      }
+      CornerAxis& axis = demand.axes[static_cast<std::size_t>(i)];
+      axis.acceleration = limits.axis_acceleration[i];
+      axis.jerk = limits.axis_jerk[i];
     }
   }
   return demand;
 }
 
 double ramp_time(double change, const CornerDemand& demand) {
-  const double build_up = demand.acceleration / demand.jerk;
-  return change <= demand.acceleration * build_up ? 2.0 * std::sqrt(change / demand.jerk)
-                                                  : change / demand.acceleration + build_up;
+  const double acceleration = demand.least_acceleration();
+  const double jerk = demand.least_jerk();
+  const double build_up = acceleration / jerk;
+  return change <= acceleration * build_up ? 2.0 * std::sqrt(change / jerk)
+                                           : change / acceleration + build_up;
 }
 
 double ramp_way(double v, double w, const CornerDemand& demand) {
@@ -69,9 +91,9 @@ double curve_loss(double width, double turn, const CornerDemand& demand) {
   if (!(width > 0.0)) {
     return std::numeric_limits<double>::infinity();
   }
-  const double v =
-      std::min({demand.feedrate, std::cbrt(kCurveShare * demand.jerk * width * width / turn),
-                std::sqrt(demand.acceleration * width / turn)});
+  const double v = std::min({demand.feedrate,
+                             std::cbrt(kCurveShare * demand.least_jerk() * width * width / turn),
+                             std::sqrt(demand.least_acceleration() * width / turn)});
   const double lost = demand.feedrate - v;
   return (lost * ramp_time(lost, demand) + 2.0 * width * lost / v) / demand.feedrate;
 }
@@ -80,9 +102,17 @@ double curve_loss(double width, double turn, const CornerDemand& demand) {
 
 std::optional<CornerMotion> fit_passage(const Vec3& corner, const CornerLeg& before,
                                         const CornerLeg& after, double tolerance, double curve,
-                                        const Limits& limits, CornerTable& table) {
-  CornerDemand demand = demand_of(before, after, tolerance, limits);
+                                        const Limits& limits, CornerTable& table,
+                                        const std::function<double(double)>& other) {
   const double turn = (after.direction - before.direction).norm();
+  const bool keeps_path_jerk = limits.jerk_of == JerkOf::kPath;
+  if (!has_bounded_jerk(before, after, limits) || (keeps_path_jerk && turn > kMostTurnByPath)) {
+    return std::nullopt;
+  }
+  CornerDemand demand = demand_of(before, after, tolerance, limits);
+  const auto loss_without = [&] {
+    return keeps_path_jerk ? other(demand.feedrate) : curve_loss(curve, turn, demand);
+  };
   const double least = kLeastShare * demand.feedrate;
   for (; demand.feedrate > least; demand.feedrate = next_below(demand.feedrate)) {
     const double length = demand.feedrate * half_corner_duration(demand);
@@ -90,16 +120,20 @@ std::optional<CornerMotion> fit_passage(const Vec3& corner, const CornerLeg& bef
         !has_room(before, 0.0, demand) || !has_room(after, 0.0, demand)) {
       continue;
     }
-    if (curve_loss(curve, turn, demand) <= 0.0) {
+    const double without = loss_without();
+    if (without <= 0.0) {
       return std::nullopt;
     }
     const auto passage = table.find(corner, before.direction, after.direction, demand);
+    if (keeps_path_jerk && !passage) {
+      return std::nullopt;
+    }
     if (!passage || !has_room(before, passage->way, demand) ||
         !has_room(after, passage->way, demand)) {
       continue;
     }
     const double loss = passage->duration() - 2.0 * passage->way / passage->feedrate;
-    return loss < curve_loss(curve, turn, demand) ? passage : std::nullopt;
+    return loss < without ? passage : std::nullopt;
   }
   return std::nullopt;
 }

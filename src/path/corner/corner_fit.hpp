@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "core/limits.hpp"
@@ -39,11 +40,16 @@ inline constexpr double kMostOfLegBesidePassage = 0.2;
 /// On either leg a passage leaves the room for a ramp from or to the passage at its other end, or from
 /// or to rest. So every passage can be reached and left whatever follows.
 ///
+/// With limits.jerk_of = path it keeps the jerk along the path, and those of the axes, all of which that
+/// move must have one: without, the jerk across the path would have no bound.
+///
 /// @param curve      half width of the curve that could round the corner instead; 0: none [mm]
 /// @param tolerance  [mm]
+/// @param other      with jerk_of = path: time that the corner loses without a passage, at a feedrate
 /// @returns nothing where there is no passage, or the curve loses less time under the same limits
 std::optional<CornerMotion> fit_passage(const Vec3& corner, const CornerLeg& before,
                                         const CornerLeg& after, double tolerance, double curve,
-                                        const Limits& limits, CornerTable& table);
+                                        const Limits& limits, CornerTable& table,
+                                        const std::function<double(double)>& other = {});
 
 }  // namespace twin::path

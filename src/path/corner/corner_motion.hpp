@@ -38,8 +38,8 @@ struct CornerMotion {
   double feedrate = 0.0;      ///< V [mm/s]
   double way = 0.0;           ///< distance of its ends from the corner [mm]
   double deviation = 0.0;     ///< largest distance between it and the legs [mm]
-  double acceleration = 0.0;  ///< A [mm/s^2]
-  double jerk = 0.0;          ///< J [mm/s^3]
+  double acceleration = 0.0;  ///< A, the least of path and axes [mm/s^2]
+  double jerk = 0.0;          ///< J, the least of path and axes [mm/s^3]
 
   double duration() const noexcept { return 2.0 * scale * half->duration; }
   /// The length that it counts for, 2 V T [mm].

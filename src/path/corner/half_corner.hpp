@@ -8,6 +8,14 @@
 
 namespace twin::path {
 
+/// Limits of an axis of the machine. In the plane of the corner it has the parts p along x and y, and of
+/// a vector q it has p_x q_x + p_y q_y in the one half of a passage and p_x q_x - p_y q_y in the other.
+struct CornerAxis {
+  Vec2 part = Vec2::Zero();   ///< |p_x|, |p_y| [-]
+  double acceleration = 0.0;  ///< largest |d2/dt2|; 0: no limit [mm/s^2]
+  double jerk = 0.0;          ///< largest |d3/dt3|; 0: no limit [mm/s^3]
+};
+
 /// What a passage through a corner has to keep.
 struct CornerDemand {
   double half_turn = 0.0;     ///< half of the change of direction phi, 0 < phi < pi / 2 [rad]
@@ -15,6 +23,13 @@ struct CornerDemand {
   double tolerance = 0.0;     ///< e, largest distance between passage and legs [mm]
   double acceleration = 0.0;  ///< A, largest |d2x/dt2| [mm/s^2]
   double jerk = 0.0;          ///< J, largest |d3x/dt3| [mm/s^3]
+  std::array<CornerAxis, 3> axes{};
+  double path_jerk = 0.0;  ///< largest |d2v/dt2| of the feedrate v = |dx/dt|; 0: no limit [mm/s^3]
+
+  /// The least of A, or J, of what axes that have a part in the corner have of it, and of the path's:
+  /// what a motion in any direction may have.
+  double least_acceleration() const noexcept;  ///< [mm/s^2]
+  double least_jerk() const noexcept;          ///< [mm/s^3]
 };
 
 /// Half of a passage through a corner between two straight legs: a motion in time.
@@ -29,7 +44,7 @@ struct CornerDemand {
 /// The jerk vector is constant in each of kPieces pieces of equal duration, so that position,
 /// velocity and acceleration are continuous. In the whole passage
 ///   |d3x/dt3| <= J,   |d2x/dt2| <= A,   |dx/dt| <= V,
-/// the distance from the legs is at most e on either side of them, and the passage comes as close
+/// acceleration and jerk of each axis are within its limits, the distance from the legs is at most e on either side of them, and the passage comes as close
 /// as e to the corner.
 struct HalfCorner {
   static constexpr std::size_t kPieces = 8;
@@ -64,6 +79,10 @@ double half_corner_duration(const CornerDemand& demand) noexcept;
 /// and acceleration at any time are linear in them; each limit is a disc or a strip, and is kept at
 /// the places where it can be exceeded first. It is solved by an interior-point method: Newton's method
 /// on the objective with logarithmic barriers, whose weight falls by steps.
+///
+/// The jerk of the path, d2v/dt2 = t j + a_n^2 / v with t the direction, a_n the normal acceleration and
+/// j the jerk, is not convex. Where it is limited, the program is solved again with t and a_n^2 / v of the
+/// solution before, until its solution keeps the limit.
 ///
 /// @returns nothing where no passage of up to about 1.4 times half_corner_duration() exists
 std::optional<HalfCorner> solve_half_corner(const CornerDemand& demand);

@@ -22,14 +22,13 @@ constexpr double kWeightStep = 30.0;
 
 }  // namespace
 
-HalfCornerProgram::HalfCornerProgram(double half_turn, double feedrate, double acceleration,
-                                     double tolerance, double duration)
-    : cos_(std::cos(half_turn)),
-      sin_(std::sin(half_turn)),
-      feedrate_(feedrate),
+HalfCornerProgram::HalfCornerProgram(const CornerDemand& demand, double duration)
+    : cos_(std::cos(demand.half_turn)),
+      sin_(std::sin(demand.half_turn)),
+      feedrate_(demand.feedrate),
       piece_(duration / kPieces) {
   keep_ends();
-  add_limits(acceleration, tolerance);
+  add_limits(demand);
 }
 
 /// A derivative of x (axis 0) or y (axis 1) at the time t, as a function of the unknowns.
@@ -94,21 +93,63 @@ void HalfCornerProgram::add(const Row& x, const Row& y, double limit) {
                     y == Row{}});
 }
 
-void HalfCornerProgram::add_limits(double acceleration, double tolerance) {
+/// Keeps a vector within the limits of the axes, in this half and in its mirror image. An axis whose
+/// limit no vector within `most` exceeds is left out.
+void HalfCornerProgram::add_axes(const CornerDemand& demand, double CornerAxis::*limit,
+                                 const Row& x, const Row& y, double most) {
+  for (const CornerAxis& axis : demand.axes) {
+    if (!(axis.*limit > 0.0) || axis.part.norm() * most <= axis.*limit) {
+      continue;
+    }
+    const bool has_both = axis.part.x() > 0.0 && axis.part.y() > 0.0;
+    for (const double sign : {1.0, -1.0}) {
+      if (sign > 0.0 || has_both) {
+        Row row{};
+        add_to(row, axis.part.x(), x);
+        add_to(row, sign * axis.part.y(), y);
+        add(row, Row{}, axis.*limit);
+      }
+    }
+  }
+}
+
+void HalfCornerProgram::add_limits(const CornerDemand& demand) {
   const Row none{};
   for (int i = 0; i < kPieces; ++i) {
     Row x = none;
     Row y = none;
     x[static_cast<std::size_t>(3 + i)] = 1.0;
     y[static_cast<std::size_t>(3 + kPieces + i)] = 1.0;
-    add(x, y, 1.0);
+    add(x, y, demand.jerk);
+    add_axes(demand, &CornerAxis::jerk, x, y, demand.jerk);
     const double begin = piece_ * i;
-    add(coordinate(0, 2, begin), coordinate(1, 2, begin), acceleration);
+    const Row ax = coordinate(0, 2, begin);
+    const Row ay = coordinate(1, 2, begin);
+    add(ax, ay, demand.acceleration);
+    add_axes(demand, &CornerAxis::acceleration, ax, ay, demand.acceleration);
     const int places = kPlaces[static_cast<std::size_t>(i)];
     for (int k = 0; k < places; ++k) {
       const double t = begin + piece_ * k / places;
-      add(t == 0.0 ? coordinate(1, 0, t) : across(0, t), none, tolerance);
+      add(t == 0.0 ? coordinate(1, 0, t) : across(0, t), none, demand.tolerance);
       add(coordinate(0, 1, t), coordinate(1, 1, t), kFeedrateUsed * feedrate_);
+    }
+  }
+}
+
+void HalfCornerProgram::keep_path_jerk(const Row& other, double limit) {
+  constexpr int kLooks = 4;
+  for (int i = 0; i < kPieces; ++i) {
+    for (int k = 0; k <= kLooks; ++k) {
+      const double t = piece_ * (i + static_cast<double>(k) / kLooks);
+      const Vec2 v(product(coordinate(0, 1, t), other), product(coordinate(1, 1, t), other));
+      const Vec2 a(product(coordinate(0, 2, t), other), product(coordinate(1, 2, t), other));
+      const double speed = v.norm();
+      const double normal = (v.x() * a.y() - v.y() * a.x()) / speed;
+      Row along{};
+      along[static_cast<std::size_t>(3 + i)] = v.x() / speed;
+      along[static_cast<std::size_t>(3 + kPieces + i)] = v.y() / speed;
+      add(along, Row{}, limit);
+      discs_.back().offset.x() += normal * normal / speed / limit;
     }
   }
 }

@@ -10,7 +10,7 @@
 
 namespace twin::path {
 
-/// The convex program, in units in which the tolerance and the jerk are 1.
+/// The convex program, in units in which the tolerance and the least jerk are 1.
 class HalfCornerProgram {
  public:
   static constexpr int kPieces = static_cast<int>(HalfCorner::kPieces);
@@ -21,11 +21,13 @@ class HalfCornerProgram {
   static constexpr std::size_t kFree = kUnknowns - kEnds;  // coordinates that the conditions leave
   using Row = std::array<double, kUnknowns>;
 
-  /// @param half_turn     [rad]
-  /// @param feedrate, acceleration, duration  in those units
-  /// @param tolerance     share of the tolerance that it may use
-  HalfCornerProgram(double half_turn, double feedrate, double acceleration, double tolerance,
-                    double duration);
+  /// @param demand    in those units; its tolerance is the share that may be used
+  /// @param duration  in those units
+  HalfCornerProgram(const CornerDemand& demand, double duration);
+
+  /// Keeps the jerk of the path at the places of each piece as well, with the direction and the normal
+  /// acceleration that another motion has there.
+  void keep_path_jerk(const Row& other, double limit);
 
   /// Finds the solution. @returns false where there is none
   bool solve();
@@ -77,7 +79,9 @@ class HalfCornerProgram {
     return free;
   }
   void keep_ends();
-  void add_limits(double acceleration, double tolerance);
+  void add_limits(const CornerDemand& demand);
+  void add_axes(const CornerDemand& demand, double CornerAxis::*limit, const Row& x, const Row& y,
+                double most);
   void add(const Row& x, const Row& y, double limit);
   bool find_inside();
   double value(const Point& at, double weight) const;

@@ -96,6 +96,22 @@ TEST(CornerFit, TheLeastLimitsOfTheAxesThatMoveAreThoseOfThePassage) {
   EXPECT_EQ(passage_of(segments[1])->acceleration, 900.0);
 }
 
+// Without a limit of its own, an axis would have any jerk in the passage.
+TEST(CornerFit, UnderTheJerkOfThePathGentleCornersArePassedWhereAllAxesThatMoveHaveALimit) {
+  const auto gentle = test::polyline({{0, 0, 0}, {20, 0, 0}, {40, 5, 0}});
+  const auto sharp = test::polyline({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}});
+  Limits limits;
+  limits.axis_jerk = {50000.0, 50000.0, 0.0};
+  EXPECT_EQ(count_passages(path_of(gentle, limits)), 1);
+  EXPECT_EQ(count_passages(path_of(sharp, limits)), 0);
+  EXPECT_EQ(count_passages(path_of(gentle, limits, CornerKind::kCurve)), 0);
+  limits.axis_jerk.y() = 0.0;
+  EXPECT_EQ(count_passages(path_of(gentle, limits)), 0);
+  limits.axis_jerk = {50000.0, 50000.0, 0.0};
+  const auto rising = test::polyline({{0, 0, 0}, {20, 0, 0}, {40, 5, 1}});
+  EXPECT_EQ(count_passages(path_of(rising, limits)), 0);
+}
+
 TEST(CornerFit, ABlockOfG61KeepsItsCornersAndStops) {
   auto blocks = test::polyline({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}});
   blocks[1].path_mode = gcode::PathMode::kExactStop;

@@ -108,6 +108,48 @@ TEST(CornerMotion, KeepsEveryLimitAsAVectorAndTheTolerance) {
   EXPECT_GT(found, 130);
 }
 
+TEST(CornerMotion, KeepsTheLimitsOfEveryAxis) {
+  std::mt19937 random(11);
+  int found = 0;
+  int reached = 0;
+  for (int i = 0; i < 200; ++i) {
+    Corner corner = any_corner(random);
+    for (CornerAxis& axis : corner.demand.axes) {
+      axis.acceleration = random() % 4 == 0 ? 0.0 : uniform(random, 300.0, 3000.0);
+      axis.jerk = random() % 4 == 0 ? 0.0 : std::pow(10.0, uniform(random, 3.5, 5.0));
+    }
+    CornerTable table;
+    const auto passage = table.find(corner.place, corner.incoming, corner.outgoing, corner.demand);
+    if (!passage) {
+      continue;
+    }
+    ++found;
+    const double step = passage->duration() / 400.0;
+    const auto p = points_of(*passage, corner.incoming, corner.outgoing, 1.0, step);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const CornerAxis& axis = corner.demand.axes[static_cast<std::size_t>(k)];
+      double acceleration = 0.0;
+      double jerk = 0.0;
+      for (std::size_t n = 3; n < p.size(); ++n) {
+        const double second = p[n][k] - 2.0 * p[n - 1][k] + p[n - 2][k];
+        const double third = second - (p[n - 1][k] - 2.0 * p[n - 2][k] + p[n - 3][k]);
+        acceleration = std::max(acceleration, std::abs(second) / (step * step));
+        jerk = std::max(jerk, std::abs(third) / (step * step * step));
+      }
+      const double rounding = 1e-13 / (step * step * step);
+      if (axis.jerk > 0.0) {
+        ASSERT_LE(jerk, axis.jerk * kDoubt + rounding) << i << " axis " << k;
+        reached += jerk > 0.97 * axis.jerk ? 1 : 0;
+      }
+      if (axis.acceleration > 0.0) {
+        ASSERT_LE(acceleration, axis.acceleration * kDoubt + rounding * step) << i;
+      }
+    }
+  }
+  EXPECT_GT(found, 150);
+  EXPECT_GT(reached, 80);
+}
+
 TEST(CornerMotion, AtAShareOfItsFeedrateIsTheSameCurveWithTheCubeOfTheJerk) {
   CornerTable table;
   const auto passage =

@@ -67,8 +67,8 @@ TEST(LinuxCncConfig, LooksForAnIndexOnlyWhereTheHalFilesConnectIt) {
 
 TEST(LinuxCncConfig, LimitsOfAnAxisGoBeforeThoseOfTheMachine) {
   const std::string ini = ini_text(
-      machine({"limits.axis_acceleration_mm_per_s2=[1000,0,0]",
-               "limits.axis_feedrate_mm_per_min=[0,1200,0]", "interpolator.period_ms=0.5"}),
+      machine({"limits.axis_acceleration_mm_per_s2=[1000,2000,0]",
+               "limits.axis_feedrate_mm_per_min=[2400,1200,0]", "interpolator.period_ms=0.5"}),
       {});
   EXPECT_EQ(value_of(ini, "JOINT_0", "MAX_ACCELERATION"), "1000");
   EXPECT_EQ(value_of(ini, "JOINT_1", "MAX_VELOCITY"), "20");
