@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/row_algebra.hpp"
+#include "core/stop_wish.hpp"
 #include "shadow/channel_filter.hpp"
 #include "shadow/evidence.hpp"
 #include "shadow/whitener.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kPeriodsPerCoefficient = 30;  // of motion, at least
 constexpr double kFloor = 1e-6;                     // white noise added to keep the filter tame
+constexpr const char* kInterrupted = "interrupted: nothing is learnt";
 constexpr int kRounds = 2;
 constexpr int kRoundsOfCounts = 3;  // slopes are of the first order, so that they come step by step
 /// Noise of counts, in counts: what the search begins with, and its limits.
@@ -95,9 +97,9 @@ double for_rows(const std::vector<ChannelSeries>& all, std::size_t periods,
 }
 
 /// Noise of the counts, by the likelihood of all of them: one of the two is made larger or smaller by
-/// a factor in turn as long as that helps, and the factor smaller.
+/// a factor in turn as long as that helps, and the factor smaller. It ends early once `stop` is set.
 void fit_noise(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
-               ChannelBaseline& baseline) {
+               const std::atomic<bool>* stop, ChannelBaseline& baseline) {
   const std::size_t periods = std::max(kNoisePeriods / all.size(), kLeastNoisePeriods);
   ChannelFacts without_force = facts;
   without_force.force_response.clear();
@@ -108,7 +110,7 @@ void fit_noise(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
   };
   double best = likelihood(baseline.noise);
   for (double factor = 4.0; factor > 1.2; factor = std::sqrt(factor)) {
-    for (bool has_moved = true; has_moved;) {
+    for (bool has_moved = true; has_moved && check_wish(stop, kInterrupted);) {
       has_moved = false;
       for (double CountNoise::*which : {&CountNoise::walk, &CountNoise::white}) {
         for (const double by : {factor, 1.0 / factor}) {
@@ -294,7 +296,8 @@ PerParameter precision_of(const std::vector<ChannelSeries>& all, const ChannelFa
 
 Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<ChannelSeries>& series,
                                         const PerParameter& known, const PerParameter& limit,
-                                        const ChannelFacts& facts, PerParameter* precision) {
+                                        const ChannelFacts& facts, PerParameter* precision,
+                                        const std::atomic<bool>* stop) {
   std::size_t moving = 0;
   for (const ChannelSeries& one : series) {
     moving += static_cast<std::size_t>(std::ranges::count(one.moves, char{1}));
@@ -311,8 +314,9 @@ Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<Chan
   const std::size_t order = std::min(kLongestFilter, moving / kPeriodsPerCoefficient);
   baseline.noise = {kFirstNoise * facts.count, kFirstNoise * facts.count};
   for (int round = 0; round < (is_followed(kind) ? kRoundsOfCounts : kRounds); ++round) {
+    TWIN_CHECK(check_wish(stop, kInterrupted));
     if (is_followed(kind)) {
-      fit_noise(series, facts, baseline);
+      fit_noise(series, facts, stop, baseline);
     } else {
       baseline.coefficients =
           autoregression(covariance_of(series, order, is_differenced(kind), baseline.mean));
@@ -323,6 +327,7 @@ Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<Chan
       fit_variance(series, facts, baseline);
     }
   }
+  TWIN_CHECK(check_wish(stop, kInterrupted));
   fit_spreads(series, facts, moving, baseline);
   if (precision != nullptr) {
     *precision = precision_of(series, facts, baseline);

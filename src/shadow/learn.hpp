@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -30,11 +31,13 @@ struct ChannelSeries {
 /// @param known  deviations of the parameters  @param limit  their largest plausible changes
 /// @param precision  gets what is known of each parameter after a second of motion: the inverse of
 ///                   its variance; 0: nothing. May be null
+/// @param stop  ends it once it is set; may be null
 /// @returns an error where the motion is too short
 Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<ChannelSeries>& series,
                                         const PerParameter& known, const PerParameter& limit,
                                         const ChannelFacts& facts,
-                                        PerParameter* precision = nullptr);
+                                        PerParameter* precision = nullptr,
+                                        const std::atomic<bool>* stop = nullptr);
 
 /// Least motion of an axis that something can be learnt from, in periods.
 inline constexpr std::size_t kLeastMotion = 500;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/stop_wish.hpp"
 #include "motion/servo/axis_servo.hpp"
 
 namespace twin::shadow {
@@ -42,7 +43,7 @@ bool is_sharper(const PerParameter& one, const PerParameter& other) {
 /// Learns the channels of one axis.
 Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& machine,
                                                   const std::vector<Track>& tracks, hal::Axis axis,
-                                                  bool gives) {
+                                                  bool gives, const std::atomic<bool>* stop) {
   std::vector<std::vector<ChannelSeries>> by_channel;
   std::vector<ChannelKind> kinds;
   std::vector<ChannelFacts> facts;
@@ -61,6 +62,7 @@ Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& mac
       return fail(ErrorCode::kFile, fmt::format("{}: other signals are recorded than in {}",
                                                 track.name, tracks.front().name));
     }
+    TWIN_CHECK(check_wish(stop, "interrupted: nothing is learnt"));
     std::vector<ChannelSeries> series = series_of(observer, track, axis);
     for (std::size_t i = 0; i < series.size(); ++i) {
       by_channel[i].push_back(std::move(series[i]));
@@ -72,7 +74,7 @@ Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& mac
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     PerParameter precision{};
     auto channel = learn_channel(kinds[i], by_channel[i], loosely_known(machine.table.axis[axis]),
-                                 plausible(machine.table.axis[axis]), facts[i], &precision);
+                                 plausible(machine.table.axis[axis]), facts[i], &precision, stop);
     if (channel) {
       // Of the two views of the position the sharper one is kept.
       if (kinds[i] == ChannelKind::kCounts && of_position) {
@@ -122,18 +124,19 @@ bool Shadow::has_failed() const noexcept {
 }
 
 Expected<Baseline> learn(const config::MachineFile& machine, const std::vector<Track>& tracks,
-                         bool gives) {
+                         bool gives, const std::atomic<bool>* stop) {
   Baseline baseline;
   baseline.period = machine.period;
   baseline.machine = machine.name;
   baseline.machine_sha256 = hash_of_model(machine);
   std::optional<Error> why;
   for (const hal::Axis axis : kAxes) {
-    auto learnt = learn_axis(machine, tracks, axis, gives);
+    auto learnt = learn_axis(machine, tracks, axis, gives, stop);
     if (learnt) {
       baseline.axis[axis] = *std::move(learnt);
     } else {
       why = learnt.error();
+      TWIN_CHECK(check_wish(stop, why->message.c_str()));
       why->message = fmt::format("axis {}: {}", kAxisNames[axis], why->message);
     }
   }
