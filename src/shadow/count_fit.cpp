@@ -13,6 +13,8 @@ constexpr std::size_t kEncoderIndex = static_cast<std::size_t>(Cause::kEncoder);
 constexpr int kImprovements = 3;
 constexpr int kHalvings = 3;        // of a step that makes it worse
 constexpr double kLeastGain = 0.5;  // of a likelihood's logarithm that is worth another step
+/// What grows must explain so much more than what changes at once: odds of 400 to 1.
+constexpr double kPriceOfGrowth = 12.0;
 /// What each lost count pays for its time: 2 ln of the periods of a block.
 constexpr double kPriceOfLoss = 8.0;
 
@@ -205,10 +207,11 @@ void CountFit::explain(const CountHistory& history, std::size_t begin) {
 }
 
 CountFit::Trial CountFit::best(std::size_t cause) const noexcept {
-  if (growing_[cause].explained <= at_once_[cause].explained) {
+  if (growing_[cause].explained <= at_once_[cause].explained + kPriceOfGrowth) {
     return at_once_[cause];
   }
   Trial trial = growing_[cause];
+  trial.explained -= kPriceOfGrowth;
   trial.change *= seconds_;
   trial.information /= seconds_ * seconds_;
   return trial;
