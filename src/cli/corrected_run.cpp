@@ -76,10 +76,7 @@ class StudiedRun : public RunCompanion {
                                                  {&stop_, progress.callback()}));
     }
     note(corrected_.remark());
-    request.correction = corrected_.correction();
-    if (corrected_.sink() != nullptr) {
-      request.sinks.push_back(corrected_.sink());
-    }
+    corrected_.add_to(request);
     return {};
   }
   void note(const std::string& line) const {

@@ -57,10 +57,7 @@ studies::compensate::CorrectedRun correct(const RunOptions& options, session::Re
   auto corrected = value_of(studies::compensate::CorrectedRun::prepare(
       {!options.correction.empty(), options.correction, options.learning}, request.program,
       request.machine, request.feedrate, {options.stop, {}}));
-  request.correction = corrected.correction();
-  if (corrected.sink() != nullptr) {
-    request.sinks.push_back(corrected.sink());
-  }
+  corrected.add_to(request);
   return corrected;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/stop_wish.hpp"
 #include "library/inside.hpp"
 #include "session/results.hpp"
 #include "shadow/report.hpp"
@@ -14,11 +15,12 @@ namespace twin {
 namespace {
 
 std::vector<shadow::Track> tracks_of(const std::vector<std::string>& traces,
-                                     const std::string& columns,
-                                     const config::MachineFile& machine) {
+                                     const std::string& columns, const config::MachineFile& machine,
+                                     const std::atomic<bool>* stop) {
   const auto map = value_of(studies::identify::parse_columns(columns));
   std::vector<shadow::Track> tracks;
   for (const std::string& trace : traces) {
+    check(check_wish(stop, "interrupted"));
     std::ranges::move(value_of(studies::shadow::read_tracks(trace, map, machine)),
                       std::back_inserter(tracks));
   }
@@ -57,26 +59,28 @@ ShadowReport Inside::report(const shadow::ShadowReport& seen, const std::string&
 }
 
 std::string learn_shadow(const std::vector<std::string>& traces, const Settings& settings,
-                         const std::string& file, const std::string& columns) {
+                         const std::string& file, const std::string& columns,
+                         const std::atomic<bool>* stop) {
   const config::MachineFile& machine = Inside::of(settings);
   check(shadow::check_identified(machine));
-  const auto tracks = tracks_of(traces, columns, machine);
+  const auto tracks = tracks_of(traces, columns, machine, stop);
   check(session::prepare_output_file(file));
   const auto baseline =
-      value_of(shadow::learn(machine, tracks, value_of(shadow::screws_give(machine))));
+      value_of(shadow::learn(machine, tracks, value_of(shadow::screws_give(machine)), stop));
   check(shadow::write_baseline(file, baseline));
   return shadow::to_text(baseline, machine);
 }
 
 std::vector<ShadowReport> watch(const std::vector<std::string>& traces, const Settings& settings,
-                                const std::string& learnt, const std::string& columns) {
+                                const std::string& learnt, const std::string& columns,
+                                const std::atomic<bool>* stop) {
   const config::MachineFile& machine = Inside::of(settings);
   check(shadow::check_identified(machine));
   const bool gives = value_of(shadow::screws_give(machine));
   std::vector<ShadowReport> reports;
-  for (const shadow::Track& track : tracks_of(traces, columns, machine)) {
+  for (const shadow::Track& track : tracks_of(traces, columns, machine, stop)) {
     reports.push_back(Inside::report(
-        value_of(studies::shadow::watch_track(machine, track, learnt, gives)), track.name));
+        value_of(studies::shadow::watch_track(machine, track, learnt, gives, stop)), track.name));
   }
   return reports;
 }

@@ -41,14 +41,18 @@ void bind_shadow(py::module_& module) {
       "learn_shadow",
       [](const std::vector<std::string>& traces, const Settings& settings, const std::string& file,
          const std::string& columns) {
-        return attended([] {}, [&] { return learn_shadow(traces, settings, file, columns); });
+        return stoppable([&](const std::atomic<bool>* stop) {
+          return learn_shadow(traces, settings, file, columns, stop);
+        });
       },
       py::arg("traces"), py::arg("settings"), py::arg("file"), py::arg("columns"));
   module.def(
       "watch",
       [](const std::vector<std::string>& traces, const Settings& settings,
          const std::string& learnt, const std::string& columns) {
-        return attended([] {}, [&] { return watch(traces, settings, learnt, columns); });
+        return stoppable([&](const std::atomic<bool>* stop) {
+          return watch(traces, settings, learnt, columns, stop);
+        });
       },
       py::arg("traces"), py::arg("settings"), py::arg("learnt"), py::arg("columns"));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/atomic_file.hpp"
 #include "core/units.hpp"
@@ -35,7 +36,10 @@ AxisObserver::AxisObserver(const config::MachineFile& machine, hal::Axis axis, b
   const hal::mujoco::AxisParams& params = machine.table.axis[axis];
   const bool is_torque_mode = params.drive.mode == hal::mujoco::DriveMode::kTorque;
   if (recorded.has_volts && !is_torque_mode) {
-    channels_.push_back(ChannelKind::kPosition);
+    channels_ = {ChannelKind::kPosition, ChannelKind::kCounts};
+    hum_angle_ = params.drive.hum_amplitude > 0.0
+                     ? 2.0 * std::numbers::pi * params.drive.hum_frequency_Hz * machine.period
+                     : 0.0;
     bank_.emplace(params, machine.period, machine.table.physics_step, gives);
     if (recorded.has_scale) {
       channels_.push_back(ChannelKind::kScale);
@@ -50,13 +54,13 @@ AxisObserver::AxisObserver(const config::MachineFile& machine, hal::Axis axis, b
   }
 }
 
-double AxisObserver::count_step(std::size_t channel) const noexcept {
-  return channels_[channel] == ChannelKind::kPosition ? units::um_from_mm(mm_per_count_) : 0.0;
-}
-
-std::vector<double> AxisObserver::force_response(std::size_t channel) const {
-  return channels_[channel] == ChannelKind::kPosition ? bank_->force_response(kLongestFilter + 1)
-                                                      : std::vector<double>();
+ChannelFacts AxisObserver::facts(std::size_t channel) const {
+  const ChannelKind kind = channels_[channel];
+  if (kind != ChannelKind::kPosition && kind != ChannelKind::kCounts) {
+    return {};
+  }
+  constexpr std::size_t kPeriods = std::max(kLongestFilter + 1, OnsetBank::kLasts);
+  return {units::um_from_mm(mm_per_count_), hum_angle_, bank_->force_response(kPeriods)};
 }
 
 void AxisObserver::judge_motion(double measured, Observation& seen) noexcept {
@@ -76,6 +80,8 @@ void AxisObserver::judge_motion(double measured, Observation& seen) noexcept {
                           ? in_motion_ > kForceBegin
                           : in_motion_ > kBegin && has_hum_for_ > kBegin;
     }
+    const double speed = bank_ ? bank_->velocity() : 0.0;
+    seen.heading = std::abs(speed) < kStanding ? 0.0 : speed > 0.0 ? 1.0 : -1.0;
     const double way = ago(kMemory - kAround) - ago(kMemory + kAround);
     const bool is_fast = std::abs(way) >= kFastWay * mm_per_count_;
     seen.direction = !is_fast ? 0.0 : way > 0.0 ? 1.0 : -1.0;
@@ -98,7 +104,9 @@ Observation AxisObserver::step(const AxisSample& sample) noexcept {
   }
   std::size_t channel = 0;
   if (bank_) {
-    seen.row[channel++] = bank_->step(sample.measured, sample.volts, in_motion_ > kMemory);
+    seen.row[0] = bank_->step(sample.measured, sample.volts, in_motion_ > kMemory);
+    seen.row[1] = seen.row[0];
+    channel = 2;
   }
   has_hum_for_ += !bank_ || bank_->has_hum() ? 1 : 0;
   if (channel < channels_.size() && channels_[channel] == ChannelKind::kScale) {

@@ -8,6 +8,7 @@
 
 #include "config/machine_file.hpp"
 #include "hal/machine.hpp"
+#include "shadow/channel_filter.hpp"
 #include "shadow/force_balance.hpp"
 #include "shadow/learn.hpp"
 #include "shadow/response_bank.hpp"
@@ -36,12 +37,13 @@ struct Observation {
   /// Of each channel, whether the axis moves, and has done so for as long as the channel remembers.
   std::array<bool, kChannels> moves{};
   double direction = 0.0;  ///< of the motion kMemory periods ago; 0 where it was slow
+  double heading = 0.0;    ///< direction of the model now; 0 where it is slow
   double counts = 0.0;     ///< way of the measured position [counts]
 };
 
 /// Watches one axis: the channels that its recorded signals allow, and its motion.
 ///
-/// A drive in speed mode has the channel of the position, and that of the scale where there is one. A
+/// A drive in speed mode has the channels of the position and of the counts, and that of the scale where there is one. A
 /// drive in torque mode has the channel of the force, and so has one whose force is recorded.
 class AxisObserver {
  public:
@@ -54,10 +56,8 @@ class AxisObserver {
   Observation step(const AxisSample& sample) noexcept;
 
   const std::vector<ChannelKind>& channels() const noexcept { return channels_; }
-  /// Step of the residual that a lost count makes in a channel; 0: none.
-  double count_step(std::size_t channel) const noexcept;
-  /// What a force of 1 N that begins does to the residual of a channel; may be empty.
-  std::vector<double> force_response(std::size_t channel) const;
+  /// What the filter of a channel must know. Allocates.
+  ChannelFacts facts(std::size_t channel) const;
   bool has_failed() const noexcept { return bank_ && bank_->has_failed(); }
   /// How many models run side by side.
   std::size_t models() const noexcept { return bank_ ? bank_->models() : 0; }
@@ -69,6 +69,7 @@ class AxisObserver {
   std::optional<ResponseBank> bank_;
   std::optional<ForceBalance> balance_;
   double force_per_volt_ = 0.0;  // torque mode [N/V]
+  double hum_angle_ = 0.0;       // in a period [rad]
   double mm_per_count_;          // > 0 [mm]
   static constexpr std::size_t kAround = 8;
   static constexpr std::size_t kPlaces = kMemory + kAround;

@@ -13,6 +13,7 @@ constexpr double kMargin = 12.0;
 /// And by this share of what is explained: signatures are of first order.
 constexpr double kRelativeMargin = 0.15;
 constexpr double kPatience = 1.2;          // of motion, until causes are named that are as good [s]
+constexpr double kPatienceForForce = 1.8;  // the same of a force, until a turn has come [s]
 constexpr double kLeastTime = 0.5;         // of motion, before any cause is named [s]
 constexpr int kLeastBlocks = 3;            // in a row that must name the same cause
 constexpr std::size_t kMostPoints = 2000;  // of the strip
@@ -29,35 +30,41 @@ AxisShadow::AxisShadow(AxisObserver observer, const std::vector<ChannelBaseline>
       continue;
     }
     const auto i = static_cast<std::size_t>(at - observer_.channels().begin());
-    Whitener whitener(baseline.coefficients, is_differenced(baseline.kind));
-    Evidence evidence(baseline,
-                      shapes_of(whitener, observer_.count_step(i), observer_.force_response(i)));
     channels_.push_back({baseline,
-                         std::move(whitener),
-                         std::move(evidence),
+                         ChannelFilter(baseline, observer_.facts(i)),
+                         Evidence(baseline),
                          threshold_of(hours, block, baseline.windows),
                          {},
                          {},
                          std::nullopt,
                          {},
                          0,
-                         i});
+                         i,
+                         {},
+                         false});
+    if (is_followed(baseline.kind)) {
+      channels_.back().trials.emplace(baseline, observer_.facts(i), period);
+    }
   }
   strip_.reserve(kMostPoints + 1);
 }
 
 Finding AxisShadow::judge(const Channel& channel) const {
-  auto all = channel.evidence.hypotheses();
+  const auto by_evidence = channel.evidence.hypotheses();
+  const bool is_tried = channel.trials && channel.trials->has_explained();
+  auto all = is_tried ? channel.trials->hypotheses() : by_evidence;
   std::ranges::sort(all, std::greater<>(), &Hypothesis::evidence);
   Finding finding;
   finding.cause = all.front();
-  finding.statistic = std::ranges::max_element(all, {}, &Hypothesis::statistic)->statistic;
+  finding.statistic = std::ranges::max_element(by_evidence, {}, &Hypothesis::statistic)->statistic;
   finding.threshold = channel.threshold;
   finding.channel = channel.baseline.kind;
   finding.found = now_;
   const auto best = static_cast<std::size_t>(finding.cause.cause);
   const double excess = best < kParameters ? channel.baseline.excess[best] : 1.0;
-  const double margin = std::max(kMargin * excess, kRelativeMargin * finding.cause.evidence);
+  const double margin = is_tried
+                            ? channel.trials->margin_of(finding.cause)
+                            : std::max(kMargin * excess, kRelativeMargin * finding.cause.evidence);
   for (auto other = all.begin() + 1; other != all.end(); ++other) {
     if (other->evidence > 0.0 && finding.cause.evidence - other->evidence < margin) {
       finding.or_else.push_back(other->cause);
@@ -98,16 +105,21 @@ bool AxisShadow::test(Channel& channel) {
     return false;
   }
   channel.crossed = channel.crossed ? channel.crossed : now_;
+  const double waited = now_.moving - channel.crossed->moving;
+  if (channel.trials) {
+    channel.trials->explain(all, now_, waited);
+    if (!channel.trials->has_explained()) {
+      return false;
+    }
+  }
   Finding finding = judge(channel);
   finding.noticed = *channel.crossed;
-  const double waited = now_.moving - channel.crossed->moving;
   channel.same = finding.cause.cause == channel.favourite ? channel.same + 1 : 1;
   channel.favourite = finding.cause.cause;
-  const bool is_jump =
-      channel.favourite == Cause::kForce && finding.channel == ChannelKind::kPosition;
+  const bool is_jump = channel.favourite == Cause::kForce && finding.channel != ChannelKind::kForce;
   const bool is_clear =
       finding.or_else.empty() && !is_jump && channel.same >= kLeastBlocks && waited >= kLeastTime;
-  if (!is_clear && waited < kPatience) {
+  if (!is_clear && waited < (is_jump ? kPatienceForForce : kPatience)) {
     return false;
   }
   found_in_ = static_cast<std::size_t>(&channel - channels_.data());
@@ -122,10 +134,14 @@ bool AxisShadow::step(const AxisSample& sample, double time, std::int64_t line) 
   now_.moving += std::ranges::count(seen.moves, true) > 0 ? period_ : 0.0;
   bool is_new = false;
   for (Channel& channel : channels_) {
-    SignalRow white;
-    if (!channel.whitener.step(seen.row[channel.number], white) || !seen.moves[channel.number]) {
-      channel.evidence.interrupt();
-    } else if (channel.evidence.add(white, seen.direction, seen.counts, now_)) {
+    if (channel.trials && seen.moves[channel.number]) {
+      channel.trials->add({channel.filter.healthy(seen.row[channel.number]), seen.heading,
+                           seen.counts, !channel.moved});
+    }
+    channel.moved = seen.moves[channel.number];
+    const ChannelFilter::Output output = channel.filter.step(
+        seen.row[channel.number], seen.moves[channel.number], seen.direction, seen.heading);
+    if (output.has_row && channel.evidence.add(output, channel.filter, seen.counts, now_)) {
       is_new = test(channel) || is_new;
     }
   }
@@ -136,7 +152,12 @@ std::optional<Finding> AxisShadow::last_finding() const {
   if (!finding_) {
     return std::nullopt;
   }
-  Finding last = judge(channels_[found_in_]);
+  Channel channel = channels_[found_in_];
+  if (channel.trials) {
+    channel.trials->explain(channel.evidence.hypotheses(), now_,
+                            now_.moving - channel.crossed->moving);
+  }
+  Finding last = judge(channel);
   last.found = finding_->found;
   last.noticed = finding_->noticed;
   return last;
@@ -150,7 +171,7 @@ std::vector<AxisShadow::Estimate> AxisShadow::estimates() const {
       if (information <= 0.0) {
         continue;
       }
-      const double noise = channel.baseline.excess[i] * channel.baseline.variance * information;
+      const double noise = channel.baseline.excess[i] * information;
       const double model = channel.baseline.scatter[i] * information;
       list.push_back({channel.baseline.kind, static_cast<Cause>(i), channel.score[i] / information,
                       std::sqrt(noise + model * model) / information});

@@ -7,8 +7,8 @@
 
 #include "shadow/axis_observer.hpp"
 #include "shadow/baseline.hpp"
+#include "shadow/cause_trials.hpp"
 #include "shadow/evidence.hpp"
-#include "shadow/whitener.hpp"
 
 namespace twin::shadow {
 
@@ -64,15 +64,17 @@ class AxisShadow {
  private:
   struct Channel {
     ChannelBaseline baseline;
-    Whitener whitener;
+    ChannelFilter filter;
     Evidence evidence;
     double threshold;
     PerParameter score{};
     PerParameter information{};
     std::optional<Moment> crossed;  // when the threshold was
     Cause favourite = Cause::kFriction;
-    int same = 0;            // blocks in a row with this favourite
-    std::size_t number = 0;  // of the observer's channel
+    int same = 0;                         // blocks in a row with this favourite
+    std::size_t number = 0;               // of the observer's channel
+    std::optional<CauseTrials> trials{};  // of counts
+    bool moved = false;                   // in the last period
   };
   Finding judge(const Channel& channel) const;
   bool test(Channel& channel);

@@ -14,7 +14,7 @@
 namespace twin::shadow {
 namespace {
 
-constexpr const char* kFormat = "twin shadow baseline 1";
+constexpr const char* kFormat = "twin shadow baseline 2";
 constexpr std::size_t kMostCoefficients = 1000;
 constexpr std::array<const char*, hal::kServoAxes> kAxisKeys{"x", "y"};
 
@@ -32,6 +32,8 @@ Json json_of(const ChannelBaseline& channel) {
   json["windows"] = channel.windows;
   json["variance"] = channel.variance;
   json["coefficients"] = channel.coefficients;
+  json["walk_um"] = channel.noise.walk;
+  json["white_um"] = channel.noise.white;
   json["mean"] = json_of(channel.mean);
   json["excess"] = json_of(channel.excess);
   json["scatter"] = json_of(channel.scatter);
@@ -121,16 +123,20 @@ class BaselineReader {
 ChannelBaseline read_channel(BaselineReader& reader, const Json& json) {
   ChannelBaseline channel;
   const std::string kind = reader.text(json, "channel");
-  if (kind != name_of(ChannelKind::kPosition) && kind != name_of(ChannelKind::kForce) &&
-      kind != name_of(ChannelKind::kScale)) {
-    reader.wrong("channel", "position, force or scale");
+  constexpr std::array kKinds{ChannelKind::kPosition, ChannelKind::kCounts, ChannelKind::kScale,
+                              ChannelKind::kForce};
+  const auto at =
+      std::ranges::find_if(kKinds, [&kind](ChannelKind one) { return kind == name_of(one); });
+  if (at == kKinds.end()) {
+    reader.wrong("channel", "position, counts, scale or force");
+  } else {
+    channel.kind = *at;
   }
-  channel.kind = kind == name_of(ChannelKind::kForce)   ? ChannelKind::kForce
-                 : kind == name_of(ChannelKind::kScale) ? ChannelKind::kScale
-                                                        : ChannelKind::kPosition;
   channel.windows = static_cast<std::size_t>(reader.number(json, "windows", 0.0, 1e12));
   channel.variance = reader.number(json, "variance", 1e-15, 1e15);
   channel.coefficients = reader.coefficients(reader.member(json, "coefficients"));
+  channel.noise.walk = reader.number(json, "walk_um", 1e-9, 1e9);
+  channel.noise.white = reader.number(json, "white_um", 1e-9, 1e9);
   channel.mean = reader.parameters(reader.member(json, "mean"), -1e9);
   channel.excess = reader.parameters(reader.member(json, "excess"), 1.0);
   channel.scatter = reader.parameters(reader.member(json, "scatter"), 0.0);
@@ -146,6 +152,8 @@ std::string_view name_of(ChannelKind kind) noexcept {
   switch (kind) {
     case ChannelKind::kPosition:
       return "position";
+    case ChannelKind::kCounts:
+      return "counts";
     case ChannelKind::kScale:
       return "scale";
     case ChannelKind::kForce:

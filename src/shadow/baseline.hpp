@@ -10,6 +10,7 @@
 #include "config/machine_file.hpp"
 #include "core/error.hpp"
 #include "hal/machine.hpp"
+#include "shadow/count_filter.hpp"
 #include "shadow/signal_row.hpp"
 
 namespace twin::shadow {
@@ -19,6 +20,7 @@ struct ChannelBaseline {
   ChannelKind kind = ChannelKind::kPosition;
   std::vector<double> coefficients;  ///< of the whitening filter
   double variance = 1.0;             ///< of the whitened residual
+  CountNoise noise;                  ///< of kCounts, in place of filter and variance
   PerParameter mean{};               ///< parameters of the healthy machine less the model's
   PerParameter excess{};             ///< scores vary so much more than white noise would make, >= 1
   PerParameter limit{};              ///< largest change that is plausible

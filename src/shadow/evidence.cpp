@@ -7,11 +7,14 @@
 namespace twin::shadow {
 namespace {
 
-constexpr std::size_t kMostBlocks = 256;
 /// Tests at the end of a block that are as good as independent: causes of both axes, times begins
 /// whose windows share little, one in each factor of two.
 constexpr double kTests = 2.0 * kCauses * 8.0;
 constexpr double kSmallest = 1e-300;
+/// Share of a parameter's information that must be left beside a force.
+constexpr double kApart = 1e-3;
+/// Nobody knows the period in which a force began, so it pays 2 ln of those that a block has.
+const double kPriceOfTime = 2.0 * std::log(static_cast<double>(Evidence::kBlock));
 /// A parameter that is to explain what a force explains, and more, pays this for it: odds of 1 to
 /// 400, twice their logarithm.
 constexpr double kPriceOfOnset = 12.0;
@@ -20,48 +23,53 @@ constexpr std::size_t kForgotten = kLongestFilter / Evidence::kBlock + 2;
 
 }  // namespace
 
-Evidence::Evidence(const ChannelBaseline& baseline, JumpShapes shapes)
-    : baseline_(baseline), jumps_(std::move(shapes), baseline.variance, kBlock) {
-  blocks_.reserve(kMostBlocks + 1);
+Evidence::Evidence(const ChannelBaseline& baseline, std::size_t most_blocks)
+    : baseline_(baseline), most_blocks_(most_blocks) {
+  blocks_.reserve(most_blocks + 1);
 }
 
-void Evidence::interrupt() noexcept { jumps_.reset(); }
-
-bool Evidence::add(const SignalRow& white, double direction, double counts,
+bool Evidence::add(const ChannelFilter::Output& output, const ChannelFilter& filter, double counts,
                    const Moment& now) noexcept {
   if (in_block_ == 0) {
     open_ = {};
     open_.begin = now;
   }
-  double residual = white.residual;
+  const WhiteRow& row = output.row;
   for (std::size_t i = 0; i < kParameters; ++i) {
-    residual -= baseline_.mean[i] * white.signature[i];
-  }
-  for (std::size_t i = 0; i < kParameters; ++i) {
-    open_.score[i] += white.signature[i] * residual;
-    open_.information[i] += white.signature[i] * white.signature[i];
+    open_.score[i] += row.signature[i] * row.score;
+    open_.information[i] += row.weight * row.signature[i] * row.signature[i];
   }
   open_.passed += counts;
-  const JumpFinder::Found found = jumps_.step(residual, direction);
-  if (found.counts.gain > 0.0) {
-    open_.steps += found.counts.gain;
-    open_.lost += found.counts.size;
+  if (output.jumps.counts.gain > 0.0) {
+    open_.steps += output.jumps.counts.gain;
+    open_.lost += output.jumps.counts.size;
     open_.events += 1.0;
   }
-  if (found.force.gain > open_.force.gain) {
-    open_.force = found.force;
+  if (output.jumps.force.gain > open_.force.gain) {
+    open_.force = output.jumps.force;
   }
   if (++in_block_ < kBlock) {
     return false;
   }
-  close();
+  close(filter.onsets());
   return true;
 }
 
-void Evidence::close() noexcept {
+void Evidence::close(const OnsetBank* onsets) noexcept {
   in_block_ = 0;
   blocks_.push_back(open_);
-  if (blocks_.size() >= kMostBlocks) {
+  for (std::size_t i = 0; onsets != nullptr && i < OnsetBank::kLasts / kBlock; ++i) {
+    if (i >= blocks_.size()) {
+      break;
+    }
+    const Onset best = onsets->best(i * kBlock, kBlock);
+    Block& block = blocks_[blocks_.size() - 1 - i];
+    if (best.explained() > block.onset.explained()) {
+      block.onset = best;
+      block.force = {best.explained() - kPriceOfTime, best.score / best.information};
+    }
+  }
+  if (blocks_.size() >= most_blocks_) {
     merge();
   }
 }
@@ -77,42 +85,59 @@ void add_block(const Evidence::Block& other, Evidence::Block& sum) noexcept {
   sum.lost += other.lost;
   sum.events += other.events;
   sum.passed += other.passed;
-  sum.force = other.force.gain > sum.force.gain ? other.force : sum.force;
+  if (other.force.gain > sum.force.gain) {
+    sum.force = other.force;
+    sum.onset = other.onset;
+  }
 }
 
 }  // namespace
 
 /// The older half of the blocks becomes half as many.
 void Evidence::merge() noexcept {
-  constexpr std::size_t kOld = kMostBlocks / 2;
-  for (std::size_t i = 0; i < kOld / 2; ++i) {
+  const std::size_t old = most_blocks_ / 2;
+  for (std::size_t i = 0; i < old / 2; ++i) {
     Block sum = blocks_[2 * i];
     add_block(blocks_[2 * i + 1], sum);
     blocks_[i] = sum;
   }
-  blocks_.erase(blocks_.begin() + kOld / 2, blocks_.begin() + kOld);
+  const auto first = blocks_.begin();
+  blocks_.erase(first + static_cast<std::ptrdiff_t>(old / 2),
+                first + static_cast<std::ptrdiff_t>(old / 2 * 2));
 }
 
-void Evidence::judge_parameters(const Block& sum, const Block& begin, const Onset& onset,
+void Evidence::judge_parameters(const Block& sum, const Block& begin, double gain,
                                 std::array<Hypothesis, kCauses>& best) const noexcept {
   for (std::size_t i = 0; i < kParameters; ++i) {
     const double information = sum.information[i];
     if (information <= kSmallest) {
       continue;
     }
-    const double noise = baseline_.excess[i] * baseline_.variance * information;
+    const double noise = baseline_.excess[i] * information;
     const double model = baseline_.scatter[i] * information;
+    const double variance = noise + model * model;
     const Fitted fit = fitted(sum.score[i], information, baseline_.limit[i]);
-    const double statistic = fit.explained * information / (noise + model * model);
-    const double evidence = fit.explained / baseline_.variance;
-    best[i].statistic = std::max(best[i].statistic, statistic);
-    if (evidence + onset.gain > best[i].evidence) {
-      best[i].evidence = evidence + onset.gain;
+    best[i].statistic = std::max(best[i].statistic, fit.explained * information / variance);
+    if (fit.explained + gain > best[i].evidence) {
+      best[i].evidence = fit.explained + gain;
       best[i].change = fit.change;
-      best[i].deviation = std::sqrt(noise + model * model) / information;
-      best[i].since = onset.gain > 0.0 ? onset.at : begin.begin;
+      best[i].deviation = std::sqrt(variance) / information;
+      best[i].since = begin.begin;
     }
   }
+}
+
+/// Takes the force that began off the scores of the parameters.
+Evidence::Block Evidence::without_onset(Block sum, const Onset& onset) noexcept {
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    const double share = onset.cross[i] / onset.information;
+    const double left = sum.information[i] - share * onset.cross[i];
+    // What the two have in common to rounding says nothing of the parameter.
+    const bool is_apart = left > kApart * sum.information[i];
+    sum.score[i] = is_apart ? sum.score[i] - share * onset.score : 0.0;
+    sum.information[i] = is_apart ? left : 0.0;
+  }
+  return sum;
 }
 
 void Evidence::judge_jumps(const Block& sum, const Block& begin,
@@ -146,10 +171,15 @@ std::array<Hypothesis, kCauses> Evidence::hypotheses() const noexcept {
   for (std::size_t i = blocks_.size(); i-- > 0;) {
     const Block& block = blocks_[i];
     add_block(block, sum);
-    judge_parameters(sum, block, {}, best);
-    if (i >= kForgotten && blocks_[i - kForgotten].force.gain > kPriceOfOnset) {
+    judge_parameters(sum, block, 0.0, best);
+    if (block.onset.information > 0.0) {
+      if (block.force.gain > kPriceOfOnset) {
+        judge_parameters(without_onset(sum, block.onset), block, block.force.gain - kPriceOfOnset,
+                         best);
+      }
+    } else if (i >= kForgotten && blocks_[i - kForgotten].force.gain > kPriceOfOnset) {
       const Block& before = blocks_[i - kForgotten];
-      judge_parameters(sum, block, {before.force.gain - kPriceOfOnset, before.begin}, best);
+      judge_parameters(sum, before, before.force.gain - kPriceOfOnset, best);
     }
     judge_jumps(sum, block, best);
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shadow/baseline.hpp"
-#include "shadow/jump_finder.hpp"
+#include "shadow/channel_filter.hpp"
 #include "shadow/signal_row.hpp"
 
 namespace twin::shadow {
@@ -40,38 +40,39 @@ inline Fitted fitted(double score, double information, double limit) noexcept {
   return {change, change * (2.0 * score - change * information)};
 }
 
-/// Sums of the whitened residual and signatures of one channel over the motion, and the tests on
-/// them.
+/// Sums of slopes and curvatures of one channel's likelihood over the motion, and the tests on them.
 ///
 /// Sums are kept in blocks of 50 periods of motion. For a change of parameter i at the begin of a
-/// block, with h = sum z_i e and G = sum z_i^2 from there on, the likelihood is largest for
-///   theta = h / G,   and explains   h^2 / (G s^2)
-/// of the residual, in variances s^2 of the noise [Willsky, Jones 1976]. The healthy machine makes
-/// scores h of variance
-///   q s^2 G + t^2 G^2,
+/// block, with h = sum z_i g and G = sum w z_i^2 from there on, the likelihood is largest for
+///   theta = h / G,   and twice its logarithm gains   h^2 / G                  [Willsky, Jones 1976],
+/// where a whitened residual e of variance s^2 has slope g = e / s^2 and curvature w = 1 / s^2. The
+/// healthy machine makes scores h of variance
+///   q G + t^2 G^2,
 /// q from what is not white, t from what the model does not have, so that
-///   T = h^2 / (q s^2 G + t^2 G^2)
+///   T = h^2 / (q G + t^2 G^2)
 /// is to be compared with a threshold. The begin is the block for which T is largest: a change at
 /// once, a change before the run and a slow one are found alike.
 ///
 /// theta is kept within what is plausible, and the likelihood is that of the bounded value.
 ///
-/// What happens at one instant is found by JumpFinder: lost counts, whose gains add up, and a force
-/// that begins. A parameter that changes at once is a force that begins, too. So what the best force
-/// explains is added to what the parameter explains from when the whitener has forgotten that force.
+/// Lost counts are told by the channel's filter, and their gains add up. A parameter that changes at
+/// once is a force that begins, too: the force has sums h_o, G_oo and G_oi with the parameter's
+/// signature over its own time, and is taken off the parameter by
+///   h = h_i - h_o G_oi / G_oo,   G = G_ii - G_oi^2 / G_oo,
+/// what it explains by itself being added. Where only the residual's shape after a force is known,
+/// and no G_oi, the parameter begins when the whitener has forgotten the force.
 class Evidence {
  public:
   static constexpr std::size_t kBlock = 50;  ///< periods of motion
 
-  /// Allocates.
-  Evidence(const ChannelBaseline& baseline, JumpShapes shapes);
+  /// @param most_blocks  that are kept; where there are more, old ones are put together. Allocates.
+  explicit Evidence(const ChannelBaseline& baseline, std::size_t most_blocks = 256);
 
-  /// Takes a whitened row of the motion. Real-time safe.
-  /// @param direction  of the motion JumpFinder::kMemory - 1 periods ago, 0 where it was slow  @param counts  that passed by
+  /// Takes what a channel's filter has made of a period of motion. Real-time safe.
+  /// @param filter  it, for forces that began  @param counts  that passed by in this period
   /// @returns whether a block is complete, so that the tests have something new
-  bool add(const SignalRow& white, double direction, double counts, const Moment& now) noexcept;
-  /// A gap in the motion: what was before says nothing of steps.
-  void interrupt() noexcept;
+  bool add(const ChannelFilter::Output& output, const ChannelFilter& filter, double counts,
+           const Moment& now) noexcept;
 
   /// The best begin for each cause that has any evidence. Real-time safe.
   std::array<Hypothesis, kCauses> hypotheses() const noexcept;
@@ -86,24 +87,22 @@ class Evidence {
     double events = 0.0;         // at which they were lost
     double passed = 0.0;         // counts that went by
     Jump force;                  // the best one
+    Onset onset;                 // its sums, where they are known
   };
   const std::vector<Block>& blocks() const noexcept { return blocks_; }
 
  private:
-  void close() noexcept;
+  void close(const OnsetBank* onsets) noexcept;
   void merge() noexcept;
-  /// What a force that begins explains before a window.
-  struct Onset {
-    double gain = 0.0;
-    Moment at{};
-  };
-  void judge_parameters(const Block& sum, const Block& begin, const Onset& onset,
+  /// @param gain  what a force that began explains besides
+  void judge_parameters(const Block& sum, const Block& begin, double gain,
                         std::array<Hypothesis, kCauses>& best) const noexcept;
+  static Block without_onset(Block sum, const Onset& onset) noexcept;
   void judge_jumps(const Block& sum, const Block& begin,
                    std::array<Hypothesis, kCauses>& best) const noexcept;
 
   ChannelBaseline baseline_;
-  JumpFinder jumps_;
+  std::size_t most_blocks_;
   std::vector<Block> blocks_;
   Block open_;
   std::size_t in_block_ = 0;

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/row_algebra.hpp"
+#include "core/stop_wish.hpp"
+#include "shadow/channel_filter.hpp"
 #include "shadow/evidence.hpp"
 #include "shadow/whitener.hpp"
 
@@ -14,7 +17,19 @@ namespace {
 
 constexpr std::size_t kPeriodsPerCoefficient = 30;  // of motion, at least
 constexpr double kFloor = 1e-6;                     // white noise added to keep the filter tame
+constexpr const char* kInterrupted = "interrupted: nothing is learnt";
 constexpr int kRounds = 2;
+constexpr int kRoundsOfCounts = 3;  // slopes are of the first order, so that they come step by step
+/// Noise of counts, in counts: what the search begins with, and its limits.
+constexpr double kFirstNoise = 0.02;
+constexpr double kLeastNoise = 1e-4;
+constexpr double kMostNoise = 10.0;
+/// Periods that it is found from, of all recordings and at least of each.
+constexpr std::size_t kNoisePeriods = 40000;
+constexpr std::size_t kLeastNoisePeriods = 2000;
+/// Periods of motion after which precisions are compared.
+constexpr double kPeriodsOfPrecision = 1000.0;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 /// Windows over which scores are taken, in blocks of Evidence.
 constexpr std::array<std::size_t, 3> kWindows{5, 20, 80};
 /// Motion below which the shortest windows are shorter, so that there are some [periods].
@@ -60,52 +75,97 @@ std::vector<double> covariance_of(const std::vector<ChannelSeries>& all, std::si
   return covariance;
 }
 
-/// Calls f(row, k) for the whitened rows of the motion.
+/// Calls f(row) for the rows of the motion, of the first periods of each recording. No counts are
+/// taken for lost: the machine is healthy, and what the model does not have yet looks like that.
+/// @returns the logarithm of their likelihood by counts
 template <class F>
-void for_white(const std::vector<ChannelSeries>& all, const ChannelBaseline& baseline, F&& f) {
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    Whitener whitener(baseline.coefficients, is_differenced(baseline.kind));
-    SignalRow white;
-    for (std::size_t k = 0; k < all[s].rows.size(); ++k) {
-      if (whitener.step(all[s].rows[k], white) && all[s].moves[k] != 0) {
-        f(white, s, k);
+double for_rows(const std::vector<ChannelSeries>& all, std::size_t periods,
+                const ChannelBaseline& baseline, const ChannelFacts& facts, F&& f) {
+  double sum = 0.0;
+  for (const ChannelSeries& series : all) {
+    ChannelFilter filter(baseline, facts);
+    for (std::size_t k = 0; k < std::min(periods, series.rows.size()); ++k) {
+      const ChannelFilter::Output output =
+          filter.step(series.rows[k], series.moves[k] != 0, series.direction[k], 0.0);
+      sum += output.log_likelihood;
+      if (output.has_row) {
+        f(output.row);
+      }
+    }
+  }
+  return sum;
+}
+
+/// Noise of the counts, by the likelihood of all of them: one of the two is made larger or smaller by
+/// a factor in turn as long as that helps, and the factor smaller. It ends early once `stop` is set.
+void fit_noise(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
+               const std::atomic<bool>* stop, ChannelBaseline& baseline) {
+  const std::size_t periods = std::max(kNoisePeriods / all.size(), kLeastNoisePeriods);
+  ChannelFacts without_force = facts;
+  without_force.force_response.clear();
+  const auto likelihood = [&](const CountNoise& noise) {
+    ChannelBaseline tried = baseline;
+    tried.noise = noise;
+    return for_rows(all, periods, tried, without_force, [](const WhiteRow&) {});
+  };
+  double best = likelihood(baseline.noise);
+  for (double factor = 4.0; factor > 1.2; factor = std::sqrt(factor)) {
+    for (bool has_moved = true; has_moved && check_wish(stop, kInterrupted);) {
+      has_moved = false;
+      for (double CountNoise::*which : {&CountNoise::walk, &CountNoise::white}) {
+        for (const double by : {factor, 1.0 / factor}) {
+          CountNoise noise = baseline.noise;
+          noise.*which =
+              std::clamp(noise.*which * by, kLeastNoise * facts.count, kMostNoise * facts.count);
+          const double here = likelihood(noise);
+          if (here > best) {
+            best = here;
+            baseline.noise = noise;
+            has_moved = true;
+            break;
+          }
+        }
       }
     }
   }
 }
 
-/// Means of the parameters by least squares, and the variance of the noise that they leave.
+/// Means of the parameters by least squares, added to those that are there.
 void fit_means(const std::vector<ChannelSeries>& all, const PerParameter& known,
-               ChannelBaseline& baseline) {
+               const ChannelFacts& facts, ChannelBaseline& baseline) {
   SquareMatrix<kParameters> normal{};
   PerParameter right{};
-  double square = 0.0;
-  double count = 0.0;
-  for_white(all, baseline, [&](const SignalRow& white, std::size_t, std::size_t) {
+  for_rows(all, kAll, baseline, facts, [&](const WhiteRow& row) {
     for (std::size_t i = 0; i < kParameters; ++i) {
-      right[i] += white.signature[i] * white.residual;
+      right[i] += row.signature[i] * row.score;
       for (std::size_t j = 0; j <= i; ++j) {
-        normal[i][j] += white.signature[i] * white.signature[j];
+        normal[i][j] += row.weight * row.signature[i] * row.signature[j];
       }
     }
-    square += white.residual * white.residual;
-    count += 1.0;
   });
-  const double variance = std::max(square / std::max(count, 1.0), 1e-12);
   for (std::size_t i = 0; i < kParameters; ++i) {
-    normal[i][i] += variance / (known[i] * known[i]);
+    const double weight = 1.0 / (known[i] * known[i]);
+    normal[i][i] += weight;
+    right[i] -= weight * baseline.mean[i];
   }
   // What is known before makes it positive definite.
-  baseline.mean = solve_in_place(normal, right, kParameters) ? right : PerParameter{};
-  double left = 0.0;
-  for_white(all, baseline, [&](const SignalRow& white, std::size_t, std::size_t) {
-    double e = white.residual;
+  if (solve_in_place(normal, right, kParameters)) {
     for (std::size_t i = 0; i < kParameters; ++i) {
-      e -= baseline.mean[i] * white.signature[i];
+      baseline.mean[i] += right[i];
     }
-    left += e * e;
+  }
+}
+
+/// Variance of the noise that the means leave, of a whitened residual.
+void fit_variance(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
+                  ChannelBaseline& baseline) {
+  double square = 0.0;
+  double count = 0.0;
+  for_rows(all, kAll, baseline, facts, [&](const WhiteRow& row) {
+    square += row.score * row.score / (row.weight * row.weight);
+    count += 1.0;
   });
-  baseline.variance = std::max(left / std::max(count, 1.0), 1e-12);
+  baseline.variance = std::max(square / std::max(count, 1.0), 1e-12);
 }
 
 /// Squares of scores and informations of one parameter over windows.
@@ -159,9 +219,8 @@ void fit_spread(const Scores& scores, double& excess, double& scatter) {
 }
 
 /// Learns excess and scatter from the blocks of each recording.
-void fit_spreads(const std::vector<ChannelSeries>& all, double step,
-                 const std::vector<double>& force_response, std::size_t moving,
-                 ChannelBaseline& baseline) {
+void fit_spreads(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
+                 std::size_t moving, ChannelBaseline& baseline) {
   std::array<Scores, kParameters> scores;
   baseline.windows = 0;
   double step_gain = 0.0;
@@ -169,21 +228,16 @@ void fit_spreads(const std::vector<ChannelSeries>& all, double step,
   baseline.excess.fill(1.0);
   baseline.scatter.fill(0.0);
   for (const ChannelSeries& series : all) {
-    Whitener whitener(baseline.coefficients, is_differenced(baseline.kind));
-    Evidence evidence(baseline, shapes_of(whitener, step, force_response));
-    std::vector<Evidence::Block> blocks;
-    SignalRow white;
+    ChannelFilter filter(baseline, facts);
+    Evidence evidence(baseline, series.rows.size() / Evidence::kBlock + 2);
     for (std::size_t k = 0; k < series.rows.size(); ++k) {
-      const bool is_full = whitener.step(series.rows[k], white);
-      if (!is_full || series.moves[k] == 0) {
-        evidence.interrupt();
-        continue;
-      }
-      if (evidence.add(white, series.direction[k], series.counts[k],
-                       {.time = static_cast<double>(k) * 1e-3})) {
-        blocks.push_back(evidence.blocks().back());
+      const ChannelFilter::Output output =
+          filter.step(series.rows[k], series.moves[k] != 0, series.direction[k], series.heading[k]);
+      if (output.has_row) {
+        evidence.add(output, filter, series.counts[k], {.time = static_cast<double>(k) * 1e-3});
       }
     }
+    const std::vector<Evidence::Block>& blocks = evidence.blocks();
     for (std::size_t length : kWindows) {
       const bool is_shortest = length == kWindows.front();
       length = is_shortest && moving < kShortMotion ? kShortestWindow : length;
@@ -203,8 +257,8 @@ void fit_spreads(const std::vector<ChannelSeries>& all, double step,
         for (std::size_t i = 0; i < kParameters; ++i) {
           if (sum.information[i] > 0.0) {
             const Fitted fit = fitted(sum.score[i], sum.information[i], baseline.limit[i]);
-            scores[i].square.push_back(fit.explained / baseline.variance);
-            scores[i].information.push_back(sum.information[i] / baseline.variance);
+            scores[i].square.push_back(fit.explained);
+            scores[i].information.push_back(sum.information[i]);
           }
         }
       }
@@ -219,11 +273,31 @@ void fit_spreads(const std::vector<ChannelSeries>& all, double step,
   }
 }
 
+/// What a second of motion tells of each parameter.
+PerParameter precision_of(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
+                          const ChannelBaseline& baseline) {
+  PerParameter information{};
+  double rows = 0.0;
+  for_rows(all, kAll, baseline, facts, [&](const WhiteRow& row) {
+    rows += 1.0;
+    for (std::size_t i = 0; i < kParameters; ++i) {
+      information[i] += row.weight * row.signature[i] * row.signature[i];
+    }
+  });
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    const double g = information[i] * kPeriodsOfPrecision / std::max(rows, 1.0);
+    const double t = baseline.scatter[i];
+    information[i] = g > 0.0 ? g / (baseline.excess[i] + t * t * g) : 0.0;
+  }
+  return information;
+}
+
 }  // namespace
 
 Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<ChannelSeries>& series,
                                         const PerParameter& known, const PerParameter& limit,
-                                        double step, const std::vector<double>& force_response) {
+                                        const ChannelFacts& facts, PerParameter* precision,
+                                        const std::atomic<bool>* stop) {
   std::size_t moving = 0;
   for (const ChannelSeries& one : series) {
     moving += static_cast<std::size_t>(std::ranges::count(one.moves, char{1}));
@@ -238,12 +312,26 @@ Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<Chan
   baseline.kind = kind;
   baseline.limit = limit;
   const std::size_t order = std::min(kLongestFilter, moving / kPeriodsPerCoefficient);
-  for (int round = 0; round < kRounds; ++round) {
-    baseline.coefficients =
-        autoregression(covariance_of(series, order, is_differenced(kind), baseline.mean));
-    fit_means(series, known, baseline);
+  baseline.noise = {kFirstNoise * facts.count, kFirstNoise * facts.count};
+  for (int round = 0; round < (is_followed(kind) ? kRoundsOfCounts : kRounds); ++round) {
+    TWIN_CHECK(check_wish(stop, kInterrupted));
+    if (is_followed(kind)) {
+      fit_noise(series, facts, stop, baseline);
+    } else {
+      baseline.coefficients =
+          autoregression(covariance_of(series, order, is_differenced(kind), baseline.mean));
+      fit_variance(series, facts, baseline);
+    }
+    fit_means(series, known, facts, baseline);
+    if (!is_followed(kind)) {
+      fit_variance(series, facts, baseline);
+    }
   }
-  fit_spreads(series, step, force_response, moving, baseline);
+  TWIN_CHECK(check_wish(stop, kInterrupted));
+  fit_spreads(series, facts, moving, baseline);
+  if (precision != nullptr) {
+    *precision = precision_of(series, facts, baseline);
+  }
   return baseline;
 }
 

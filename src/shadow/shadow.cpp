@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/stop_wish.hpp"
 #include "motion/servo/axis_servo.hpp"
 
 namespace twin::shadow {
@@ -24,19 +25,28 @@ std::vector<ChannelSeries> series_of(AxisObserver observer, const Track& track, 
       series[i].counts.push_back(seen.counts);
       series[i].moves.push_back(seen.moves[i] ? 1 : 0);
       series[i].direction.push_back(seen.direction);
+      series[i].heading.push_back(seen.heading);
     }
   }
   return series;
 }
 
+/// Whether a channel knows its parameters better than another one, in the geometric mean.
+bool is_sharper(const PerParameter& one, const PerParameter& other) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    sum += one[i] > 0.0 && other[i] > 0.0 ? std::log(one[i] / other[i]) : 0.0;
+  }
+  return sum > 0.0;
+}
+
 /// Learns the channels of one axis.
 Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& machine,
                                                   const std::vector<Track>& tracks, hal::Axis axis,
-                                                  bool gives) {
+                                                  bool gives, const std::atomic<bool>* stop) {
   std::vector<std::vector<ChannelSeries>> by_channel;
   std::vector<ChannelKind> kinds;
-  std::vector<double> steps;
-  std::vector<std::vector<double>> forces;
+  std::vector<ChannelFacts> facts;
   for (const Track& track : tracks) {
     if (!track.is_recorded[axis]) {
       continue;
@@ -46,13 +56,13 @@ Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& mac
       kinds = observer.channels();
       by_channel.resize(kinds.size());
       for (std::size_t i = 0; i < kinds.size(); ++i) {
-        steps.push_back(observer.count_step(i));
-        forces.push_back(observer.force_response(i));
+        facts.push_back(observer.facts(i));
       }
     } else if (kinds != observer.channels()) {
       return fail(ErrorCode::kFile, fmt::format("{}: other signals are recorded than in {}",
                                                 track.name, tracks.front().name));
     }
+    TWIN_CHECK(check_wish(stop, "interrupted: nothing is learnt"));
     std::vector<ChannelSeries> series = series_of(observer, track, axis);
     for (std::size_t i = 0; i < series.size(); ++i) {
       by_channel[i].push_back(std::move(series[i]));
@@ -60,10 +70,22 @@ Expected<std::vector<ChannelBaseline>> learn_axis(const config::MachineFile& mac
   }
   std::vector<ChannelBaseline> learnt;
   std::optional<Error> why;
+  std::optional<PerParameter> of_position;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
+    PerParameter precision{};
     auto channel = learn_channel(kinds[i], by_channel[i], loosely_known(machine.table.axis[axis]),
-                                 plausible(machine.table.axis[axis]), steps[i], forces[i]);
+                                 plausible(machine.table.axis[axis]), facts[i], &precision, stop);
     if (channel) {
+      // Of the two views of the position the sharper one is kept.
+      if (kinds[i] == ChannelKind::kCounts && of_position) {
+        if (is_sharper(*of_position, precision)) {
+          continue;
+        }
+        learnt.pop_back();
+      }
+      if (kinds[i] == ChannelKind::kPosition) {
+        of_position = precision;
+      }
       learnt.push_back(*std::move(channel));
     } else {
       why = channel.error();
@@ -102,18 +124,19 @@ bool Shadow::has_failed() const noexcept {
 }
 
 Expected<Baseline> learn(const config::MachineFile& machine, const std::vector<Track>& tracks,
-                         bool gives) {
+                         bool gives, const std::atomic<bool>* stop) {
   Baseline baseline;
   baseline.period = machine.period;
   baseline.machine = machine.name;
   baseline.machine_sha256 = hash_of_model(machine);
   std::optional<Error> why;
   for (const hal::Axis axis : kAxes) {
-    auto learnt = learn_axis(machine, tracks, axis, gives);
+    auto learnt = learn_axis(machine, tracks, axis, gives, stop);
     if (learnt) {
       baseline.axis[axis] = *std::move(learnt);
     } else {
       why = learnt.error();
+      TWIN_CHECK(check_wish(stop, why->message.c_str()));
       why->message = fmt::format("axis {}: {}", kAxisNames[axis], why->message);
     }
   }
@@ -168,10 +191,12 @@ std::string to_text(const Baseline& baseline, const config::MachineFile& machine
   const double block = static_cast<double>(Evidence::kBlock) * baseline.period;
   for (const hal::Axis axis : kAxes) {
     for (const ChannelBaseline& channel : baseline.axis[axis]) {
-      text += fmt::format("axis {}, {}: noise {:.3g} {}, {} windows, threshold {:.0f}\n",
-                          kAxisNames[axis], name_of(channel.kind), std::sqrt(channel.variance),
-                          channel.kind == ChannelKind::kForce ? "N" : "um", channel.windows,
-                          threshold_of(machine.shadow.hours, block, channel.windows));
+      text +=
+          fmt::format("axis {}, {}: noise {:.3g} {}, {} windows, threshold {:.0f}\n",
+                      kAxisNames[axis], name_of(channel.kind),
+                      is_followed(channel.kind) ? channel.noise.white : std::sqrt(channel.variance),
+                      channel.kind == ChannelKind::kForce ? "N" : "um", channel.windows,
+                      threshold_of(machine.shadow.hours, block, channel.windows));
     }
   }
   return text;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -51,10 +52,10 @@ class Shadow {
 };
 
 /// Finds what healthy runs of a machine are like.
-/// @param known  deviations of its parameters before anything is learnt
+/// @param stop  ends it once it is set; may be null
 /// @returns an error that names the axis that moves too little, where none moves enough
 Expected<Baseline> learn(const config::MachineFile& machine, const std::vector<Track>& tracks,
-                         bool gives);
+                         bool gives, const std::atomic<bool>* stop = nullptr);
 
 /// What healthy runs of the machine file's own table are like: for a shadow that has learnt nothing.
 /// Motion, hum and the phases of the encoder are simulated; what [uncertainty] says of the

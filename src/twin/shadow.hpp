@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -37,22 +38,26 @@ struct ShadowReport {
 ///
 /// @param traces   CSV or HDF5 files of runs, or recordings of any machine
 /// @param columns  which columns are which signal, as IdentifyOptions::columns has it
+/// @param stop     ends it with a Failure once it is set; may be null
 /// @returns what `twin shadow --learn` prints
 /// @throws Failure if a trace cannot be read, if the motion is too short to learn from, or if the
 ///         table was never identified
 TWIN_EXPORT std::string learn_shadow(const std::vector<std::string>& traces,
                                      const Settings& settings, const std::string& file,
-                                     const std::string& columns = "");
+                                     const std::string& columns = "",
+                                     const std::atomic<bool>* stop = nullptr);
 
 /// Lets the identified model run beside recorded runs and says what has changed of the machine.
 ///
 /// @param learnt  file of learn_shadow(); empty: only the model and its uncertainty are known
+/// @param stop    ends it with a Failure once it is set; may be null
 /// @returns a report for each recording, in order
 /// @throws Failure if a trace cannot be read, or if the file was learnt of another machine, other
 ///         signals or another period
 TWIN_EXPORT std::vector<ShadowReport> watch(const std::vector<std::string>& traces,
                                             const Settings& settings,
                                             const std::string& learnt = "",
-                                            const std::string& columns = "");
+                                            const std::string& columns = "",
+                                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace twin

@@ -8,6 +8,8 @@ import time
 
 import pytest
 
+import twin
+
 HEAD = "import sys, twin\nprint('begin', flush=True)\ntry:\n"
 TAIL = "except KeyboardInterrupt:\n    print('interrupted')\n    sys.exit(42)\n"
 LONG = "twin.Program.from_text('G21 G90\\n' + 'G1 X10 F6\\nX0\\n' * 4000)"
@@ -15,13 +17,23 @@ CALLS = {
     "run": f"    twin.run({LONG}, folder=sys.argv[1])\n",
     "wall_clock": f"    twin.run({LONG}, folder=sys.argv[1], hal='ideal', wall_clock=True)\n",
     "plan": "    while True: twin.plan('trochoid.nc')\n",
+    "learn_shadow": "    while True: twin.learn_shadow([sys.argv[2]] * 40, file=sys.argv[1] + '/learnt.json')\n",
+    "watch": "    while True: twin.watch([sys.argv[2]] * 40)\n",
 }
+RECORDED = ("learn_shadow", "watch")
+
+
+@pytest.fixture(scope="session")
+def trace(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("recorded")
+    twin.run("dolphin.nc", folder=folder)
+    return folder / "trace.csv"
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_ctrl_c_ends_the_call(call, tmp_path):
+def test_ctrl_c_ends_the_call(call, tmp_path, trace):
     child = subprocess.Popen(
-        [sys.executable, "-c", HEAD + CALLS[call] + TAIL, tmp_path],
+        [sys.executable, "-c", HEAD + CALLS[call] + TAIL, tmp_path, trace],
         stdout=subprocess.PIPE,
         env=os.environ,
         text=True,

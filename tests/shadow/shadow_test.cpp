@@ -76,13 +76,17 @@ ChannelBaseline white_baseline() {
 TEST(Evidence, AChangeIsFoundWithItsSizeItsTimeAndItsDeviation) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 2.0);
-  Evidence evidence(white_baseline(), {});
+  const ChannelBaseline baseline = white_baseline();
+  const ChannelFilter filter(baseline, {});
+  Evidence evidence(baseline);
   for (int k = 0; k < 4000; ++k) {
     SignalRow row;
     row.signature[0] = std::sin(0.01 * k);
     row.signature[1] = std::cos(0.3 * k);
     row.residual = noise(random) + (k >= 2000 ? 0.7 * row.signature[0] : 0.0);
-    evidence.add(row, 0.0, 1.0, {.time = 0.001 * k, .line = k, .moving = 0.001 * k});
+    ChannelFilter::Output output;
+    output.row = {row.residual / 4.0, 1.0 / 4.0, row.signature};
+    evidence.add(output, filter, 1.0, {.time = 0.001 * k, .line = k, .moving = 0.001 * k});
   }
   const Hypothesis found = evidence.hypotheses()[0];
   EXPECT_NEAR(found.change, 0.7, 4.0 * found.deviation);
@@ -249,7 +253,7 @@ TEST(Learning, TheFileIsReadBackAndRefusedForAnotherMachineOrPeriod) {
   other = machine;
   other.period = 0.002;
   EXPECT_THAT(to_string(read_baseline(file, other).error()), HasSubstr("with a period of 0.001 s"));
-  ASSERT_TRUE(write_whole_file(file, "{\"format\": \"twin shadow baseline 1\"}"));
+  ASSERT_TRUE(write_whole_file(file, "{\"format\": \"twin shadow baseline 2\"}"));
   EXPECT_THAT(to_string(read_baseline(file, machine).error()), HasSubstr("'machine' should be"));
   ASSERT_TRUE(write_whole_file(file, "friction"));
   EXPECT_THAT(to_string(read_baseline(file, machine).error()), HasSubstr("this is no JSON"));

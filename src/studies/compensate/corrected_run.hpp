@@ -55,6 +55,15 @@ class CorrectedRun {
   /// Gets the rows of the run's trace, whose default columns it needs; null where nothing is learnt.
   TraceSink* sink() const noexcept { return trace_.get(); }
 
+  /// Puts correction() and sink() into a request: of a session, or of a run.
+  template <class Request>
+  void add_to(Request& request) const {
+    request.correction = correction_;
+    if (sink() != nullptr) {
+      request.sinks.push_back(sink());
+    }
+  }
+
   /// Makes a better correction of what sink() has got, which must be a whole run.
   /// @returns a line on it; an empty one where nothing is learnt
   Expected<std::string> learn_from(const CorrectionWatch& watch);

@@ -34,39 +34,46 @@ class Search {
  public:
   Search(const gcode::ProgramText& program, const config::MachineFile& machine,
          const FastestOptions& options, const Uncertainty& uncertainty)
-      : program_(program), machine_(machine), options_(options), uncertainty_(uncertainty) {}
+      : program_(program),
+        machine_(machine),
+        options_(options),
+        uncertainty_(uncertainty),
+        searching_(options.tolerance, options.share),
+        holding_(options.tolerance, options.share) {}
 
   Expected<Fastest> run();
 
  private:
   Expected<Trial> tried(const gcode::ProgramText& program, const config::MachineFile& machine,
-                        const std::optional<double>& feedrate) const;
+                        const std::optional<double>& feedrate, Question* question) const;
   Expected<CutPlan> verified(const Trial& trial, double feedrate) const;
   /// The fastest trial of plans that get slower with a factor from 1 down; none keeps it: nothing.
   template <class Make>
-  Expected<std::optional<std::pair<double, Trial>>> fastest_of(const Make& make) const;
+  Expected<std::optional<std::pair<double, Trial>>> fastest_of(const Make& make);
   void change(std::span<const double> errors, std::vector<double>& feeds) const;
   Expected<std::string> text_of(std::span<const gcode::Block> blocks,
                                 std::span<const std::size_t> stretch,
                                 std::span<const double> feeds) const;
-  Expected<void> find_stretches(const Trial& whole, double feedrate, Fastest& found) const;
-  Expected<void> find_paper(Fastest& found) const;
+  Expected<void> find_stretches(const Trial& whole, double feedrate, Fastest& found);
+  Expected<void> find_paper(Fastest& found);
   void tell(const std::string& what) const {
     if (options_.tell) {
       options_.tell(what);
     }
   }
   bool keeps(const Trial& trial) const { return trial.error <= options_.tolerance; }
-  Expected<bool> holds(const Trial& trial) const;
+  Expected<bool> holds(const Trial& trial);
 
   const gcode::ProgramText& program_;
   const config::MachineFile& machine_;
   const FastestOptions& options_;
   const Uncertainty& uncertainty_;
+  Question searching_;  // of the machines of the search
+  Question holding_;    // of those that it has not seen
 };
 
 Expected<Trial> Search::tried(const gcode::ProgramText& program, const config::MachineFile& machine,
-                              const std::optional<double>& feedrate) const {
+                              const std::optional<double>& feedrate, Question* question) const {
   Trial trial;
   TWIN_TRY(trial.path, ContourPath::plan(program, machine, feedrate));
   const std::vector<std::size_t> blocks = trial.path.blocks_of_periods();
@@ -74,19 +81,21 @@ Expected<Trial> Search::tried(const gcode::ProgramText& program, const config::M
                                          {.machines = options_.machines,
                                           .seed = options_.seed,
                                           .stop = options_.stop,
-                                          .progress = {}}));
+                                          .progress = {},
+                                          .question = question}));
   trial.time = trial.path.time(machine.period);
   trial.error = quantile(trial.errors.largest, options_.share);
   return trial;
 }
 
 /// Whether as many machines that the search has not seen keep the tolerance as well.
-Expected<bool> Search::holds(const Trial& trial) const {
+Expected<bool> Search::holds(const Trial& trial) {
   TWIN_TRY(const PossibleErrors errors, possible_errors(trial.path, uncertainty_, {}, {},
                                                         {.machines = options_.verifying,
                                                          .seed = options_.seed + 2,
                                                          .stop = options_.stop,
-                                                         .progress = {}}));
+                                                         .progress = {},
+                                                         .question = &holding_}));
   return quantile(errors.largest, options_.share) <= options_.tolerance;
 }
 
@@ -95,12 +104,13 @@ Expected<CutPlan> Search::verified(const Trial& trial, double feedrate) const {
                                                         {.machines = options_.verifying,
                                                          .seed = options_.seed + 1,
                                                          .stop = options_.stop,
-                                                         .progress = {}}));
+                                                         .progress = {},
+                                                         .question = nullptr}));
   return CutPlan{trial.time, feedrate, predict(errors.largest, options_.tolerance)};
 }
 
 template <class Make>
-Expected<std::optional<std::pair<double, Trial>>> Search::fastest_of(const Make& make) const {
+Expected<std::optional<std::pair<double, Trial>>> Search::fastest_of(const Make& make) {
   using Found = std::optional<std::pair<double, Trial>>;
   double high = 1.0;
   TWIN_TRY(Trial trial, make(high));
@@ -213,7 +223,7 @@ std::vector<FeedStretch> schedule_of(std::span<const gcode::Block> blocks,
   return schedule;
 }
 
-Expected<void> Search::find_stretches(const Trial& whole, double feedrate, Fastest& found) const {
+Expected<void> Search::find_stretches(const Trial& whole, double feedrate, Fastest& found) {
   const std::vector<gcode::Block>& blocks = whole.path.blocks();
   const std::vector<std::size_t> stretch = stretches_of(blocks);
   std::vector<double> feeds(stretch.empty() ? 0 : stretch.back() + 1, feedrate);
@@ -231,7 +241,7 @@ Expected<void> Search::find_stretches(const Trial& whole, double feedrate, Faste
       return {};
     }
     TWIN_TRY(Trial trial,
-             tried(gcode::ProgramText::from_text(*text, program_.file()), machine_, {}));
+             tried(gcode::ProgramText::from_text(*text, program_.file()), machine_, {}, nullptr));
     bool is_better = keeps(trial) && (!best || trial.time < best->time);
     if (is_better) {
       TWIN_TRY(is_better, holds(trial));
@@ -249,12 +259,12 @@ Expected<void> Search::find_stretches(const Trial& whole, double feedrate, Faste
   return {};
 }
 
-Expected<void> Search::find_paper(Fastest& found) const {
+Expected<void> Search::find_paper(Fastest& found) {
   const auto planned = [&](double eps, double feedrate) {
     config::MachineFile paper = machine_;
     paper.path.planner = Planner::kPaper;
     paper.planning.corner_error = paper.planning.circular_error = eps;
-    return tried(program_, paper, feedrate);
+    return tried(program_, paper, feedrate, &searching_);
   };
   tell("the paper's servo model");
   const double largest = machine_.limits.feedrate;
@@ -277,8 +287,9 @@ Expected<Fastest> Search::run() {
   Fastest found;
   tell("one feedrate for the program");
   const double largest = machine_.limits.feedrate;
-  TWIN_TRY(const auto whole,
-           fastest_of([&](double share) { return tried(program_, machine_, share * largest); }));
+  TWIN_TRY(const auto whole, fastest_of([&](double share) {
+             return tried(program_, machine_, share * largest, &searching_);
+           }));
   if (whole) {
     TWIN_TRY(found.whole, verified(whole->second, whole->first * largest));
     TWIN_CHECK(find_stretches(whole->second, whole->first * largest, found));

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <numeric>
 
 #include "core/parallel_for.hpp"
 #include "core/units.hpp"
@@ -16,7 +19,48 @@ namespace {
 
 constexpr double kTwoSided = 1.959963984540054;  // deviations of 95 %
 
+/// The largest error of feed motion, and those of stretches.
+double note_errors(const compensate::ContourPath& path, const std::vector<Vec2>& errors,
+                   std::span<const std::size_t> stretches, std::vector<double>& on_stretch) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    if (!path.is_feed(k)) {
+      continue;
+    }
+    const double size = errors[k].norm();
+    largest = std::max(largest, size);
+    if (!stretches.empty()) {
+      double& of_stretch = on_stretch[stretches[k]];
+      of_stretch = std::max(of_stretch, size);
+    }
+  }
+  return largest;
+}
+
 }  // namespace
+
+std::size_t Question::may_fail(std::size_t machines) const {
+  const auto keep =
+      static_cast<std::size_t>(std::ceil(share_ * static_cast<double>(machines) - 1e-9));
+  return machines - std::clamp<std::size_t>(keep, 1, std::max<std::size_t>(machines, 1));
+}
+
+std::vector<std::size_t> Question::order(std::size_t machines) const {
+  std::vector<std::size_t> order(machines);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (badness_.size() == machines) {
+    std::ranges::stable_sort(order, std::greater<>(),
+                             [this](std::size_t i) { return badness_[i]; });
+  }
+  return order;
+}
+
+void Question::learn(std::span<const double> largest) {
+  badness_.resize(largest.size(), 0.0);
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    badness_[i] = std::isfinite(largest[i]) ? largest[i] : badness_[i];
+  }
+}
 
 Expected<PossibleErrors> possible_errors(const compensate::ContourPath& path,
                                          const Uncertainty& uncertainty,
@@ -33,8 +77,17 @@ Expected<PossibleErrors> possible_errors(const compensate::ContourPath& path,
   std::mutex mutex;  // of progress
   std::size_t done = 0;
   const auto is_stopped = [&] { return options.stop != nullptr && options.stop->load(); };
-  parallel_for(options.machines, [&](std::size_t i) {
+  Question* const question = options.question;
+  const std::vector<std::size_t> order =
+      question != nullptr ? question->order(options.machines) : std::vector<std::size_t>();
+  std::atomic<std::size_t> failed{0};
+  parallel_for(options.machines, [&](std::size_t at) {
+    const std::size_t i = order.empty() ? at : order[at];
     if (is_stopped()) {
+      return;
+    }
+    if (question != nullptr && failed.load() > question->may_fail(options.machines)) {
+      errors.largest[i] = std::numeric_limits<double>::infinity();
       return;
     }
     const PossibleMachine possible = uncertainty.draw(options.seed, i);
@@ -44,18 +97,11 @@ Expected<PossibleErrors> possible_errors(const compensate::ContourPath& path,
       errors.largest[i] = std::numeric_limits<double>::infinity();
       std::ranges::fill(errors.on_stretch[i], errors.largest[i]);
     } else {
-      const std::vector<Vec2> found = path.errors(run.table);
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        if (!path.is_feed(k)) {
-          continue;
-        }
-        const double size = found[k].norm();
-        errors.largest[i] = std::max(errors.largest[i], size);
-        if (!stretches.empty()) {
-          double& largest = errors.on_stretch[i][stretches[k]];
-          largest = std::max(largest, size);
-        }
-      }
+      errors.largest[i] =
+          note_errors(path, path.errors(run.table), stretches, errors.on_stretch[i]);
+    }
+    if (question != nullptr && errors.largest[i] > question->tolerance()) {
+      ++failed;
     }
     if (options.progress) {
       const std::lock_guard lock(mutex);
@@ -64,6 +110,9 @@ Expected<PossibleErrors> possible_errors(const compensate::ContourPath& path,
   });
   if (is_stopped()) {
     return fail(ErrorCode::kInterrupted, "interrupted");
+  }
+  if (question != nullptr) {
+    question->learn(errors.largest);
   }
   return errors;
 }

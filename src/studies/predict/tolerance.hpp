@@ -13,12 +13,35 @@
 
 namespace twin::studies::predict {
 
+/// A question that need not try all machines: whether a share of them keeps a tolerance. Machines
+/// that were the worst are tried first, and once too many have not kept it the others count as
+/// unstable.
+class Question {
+ public:
+  /// @param tolerance  [mm]
+  Question(double tolerance, double share) : tolerance_(tolerance), share_(share) {}
+
+  double tolerance() const noexcept { return tolerance_; }
+  /// So many of the machines may be beyond the tolerance.
+  std::size_t may_fail(std::size_t machines) const;
+  /// Numbers of the machines in the order in which they are tried.
+  std::vector<std::size_t> order(std::size_t machines) const;
+  /// Remembers which were bad. @param largest  of each machine
+  void learn(std::span<const double> largest);
+
+ private:
+  double tolerance_;
+  double share_;
+  std::vector<double> badness_;
+};
+
 /// How many machines are tried.
 struct ToleranceOptions {
   std::size_t machines = 200;
   std::uint64_t seed = 1;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double)> progress{};  ///< gets the done share, 0 to 1; one call at a time
+  Question* question = nullptr;            ///< that is asked; null: all errors are wanted
 };
 
 /// Contour errors of the table over possible machines, in feed motion: rapids do not count.

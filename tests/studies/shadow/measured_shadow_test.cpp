@@ -122,8 +122,8 @@ TEST_F(MeasuredShadow, EmpsIsSilentInItsHealthyHalfAndShowsAFifthMoreForce) {
       << twin::shadow::to_line(*found, hal::kX);
 }
 
-/// The 2.3 s that it learns from are too little to find a change of a fifth; they must not make it
-/// loud.
+/// Of its two axes Y moves in the first half only and X in the second only, so that nothing that was
+/// learnt can be held against a motion; the shadow must not make something up.
 TEST_F(MeasuredShadow, SinumerikIsSilentInItsHealthyHalf) {
   const Recorded machine = learn_half("sinumerik_840d.csv", kSinumerik, start_machine(0.002));
   const Shadow healthy = watched(machine, machine.second);
