@@ -41,11 +41,11 @@ void transpose(std::array<std::uint64_t, kBytes>& words) {
   swap_blocks(1, 0x00FF00FF00FF00FFU);
 }
 
-/// Entropy of a quarter of the bytes, four in a row of every sixteen [bits a byte].
+/// Entropy of an eighth of the bytes, four in a row of every 32 [bits a byte].
 double entropy(std::span<const std::uint8_t> bytes) {
   std::array<std::array<std::uint32_t, 256>, 4> counts{};  // four, so that equal bytes do not wait
   std::size_t seen = 0;
-  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 16, seen += 4) {
+  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 32, seen += 4) {
     for (std::size_t k = 0; k < 4; ++k) {
       ++counts[k][bytes[i + k]];
     }

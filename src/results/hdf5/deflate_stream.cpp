@@ -1,5 +1,6 @@
 #include "results/hdf5/deflate_stream.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -69,10 +70,35 @@ void DeflateStream::put_coded(std::span<const std::uint8_t> bytes) {
   counts.back() = 1;
   const HuffmanCode code = make_huffman_code(counts);
   put_header(code.lengths);
-  for (const std::uint8_t byte : bytes) {
-    put(code.bits[byte], code.lengths[byte]);
-  }
+  put_symbols(bytes, code);
   put(code.bits.back(), code.lengths.back());
+}
+
+/// Whole words go out, of which the next one overwrites what was no whole byte yet.
+void DeflateStream::put_symbols(std::span<const std::uint8_t> bytes, const HuffmanCode& code) {
+  constexpr std::size_t kAtOnce = 3;  // with what waits at most 7 + 3 x 15 bits
+  std::size_t end = packed_.size();
+  packed_.resize(end + (bytes.size() * kLongestCode) / 8 + 2 * sizeof waiting_);
+  std::uint64_t waiting = waiting_;
+  unsigned count = count_;
+  const auto flush = [&] {
+    for (std::size_t i = 0; i < sizeof waiting; ++i) {  // a word, low byte first
+      packed_[end + i] = static_cast<std::uint8_t>(waiting >> (8 * i));
+    }
+    end += count / 8;
+    waiting >>= count / 8 * 8;
+    count %= 8;
+  };
+  for (std::size_t i = 0; i < bytes.size();) {
+    for (const std::size_t stop = std::min(i + kAtOnce, bytes.size()); i < stop; ++i) {
+      waiting |= static_cast<std::uint64_t>(code.bits[bytes[i]]) << count;
+      count += code.lengths[bytes[i]];
+    }
+    flush();
+  }
+  packed_.resize(end);
+  waiting_ = waiting;
+  count_ = count;
 }
 
 }  // namespace twin::results::hdf5

@@ -6,6 +6,8 @@
 
 namespace twin::results::hdf5 {
 
+struct HuffmanCode;
+
 /// Blocks of deflate (RFC 1951) without matches, none of which is the stream's last one: bytes as
 /// they are, or by a Huffman code of their own.
 class DeflateStream {
@@ -23,6 +25,7 @@ class DeflateStream {
  private:
   void put(std::uint64_t bits, unsigned count);
   void put_header(std::span<const std::uint8_t> lengths);
+  void put_symbols(std::span<const std::uint8_t> bytes, const HuffmanCode& code);
 
   std::vector<std::uint8_t>& packed_;
   std::uint64_t waiting_ = 0;  // bits that are no whole byte yet, the first one lowest

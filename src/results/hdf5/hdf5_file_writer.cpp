@@ -24,6 +24,23 @@ struct Column {
   bool is_whole = false;
   Handle dataset;
   std::vector<std::uint64_t> waiting;  // bits of the values of the chunk that is being filled
+
+  /// Takes a value of each row. @param step  from one to the next
+  void take(std::span<const double> values, std::size_t step, std::size_t rows) {
+    const std::size_t first = waiting.size();
+    waiting.resize(first + rows);
+    std::uint64_t* to = waiting.data() + first;
+    const double* from = values.data();
+    if (is_whole) {
+      for (std::size_t i = 0; i < rows; ++i) {
+        to[i] = std::bit_cast<std::uint64_t>(static_cast<std::int64_t>(from[i * step]));
+      }
+    } else {
+      for (std::size_t i = 0; i < rows; ++i) {
+        to[i] = std::bit_cast<std::uint64_t>(from[i * step] + 0.0);  // no -0
+      }
+    }
+  }
 };
 
 class FileWriter final : public Hdf5Writer {
@@ -167,13 +184,14 @@ Expected<void> FileWriter::rows(std::span<const double> values) {
   if (failure_) {
     return tl::unexpected(*failure_);
   }
-  for (std::size_t begin = 0; begin < values.size(); begin += columns_.size()) {
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const double value = values[begin + i];
-      columns_[i].waiting.push_back(
-          columns_[i].is_whole ? std::bit_cast<std::uint64_t>(static_cast<std::int64_t>(value))
-                               : std::bit_cast<std::uint64_t>(value + 0.0));  // no -0
+  const std::size_t width = columns_.size();
+  while (values.size() >= width) {
+    const std::size_t rows =
+        std::min(values.size() / width, kHdf5ChunkRows - columns_.front().waiting.size());
+    for (std::size_t i = 0; i < width; ++i) {
+      columns_[i].take(values.subspan(i), width, rows);
     }
+    values = values.subspan(rows * width);
     if (columns_.front().waiting.size() == kHdf5ChunkRows) {
       const Calls calls;
       TWIN_CHECK(write_chunk());
