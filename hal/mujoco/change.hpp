@@ -18,7 +18,7 @@ enum class ChangeKind : std::uint8_t {
   kVrefOffset,   ///< added to V-REF [mV]
   kLoopGain,     ///< gain of the velocity loop, as a factor
   kEncoderSlip,  ///< so many of 1,000 edges are lost
-  kBacklash,     ///< play between screw and slide [um]; screws that give only
+  kBacklash,     ///< added play between screw and slide [um]; screws that give only
   kLoad,         ///< mass on the slide [kg]
   kForce,        ///< force on the slide, towards plus [N]
 };
@@ -45,7 +45,7 @@ struct AxisCondition {
   double vref_offset = 0.0;  ///< added [V]
   double loop_gain = 1.0;    ///< factor
   double lost_share = 0.0;   ///< of the encoder's edges [-]
-  double backlash = 0.0;     ///< [mm]
+  double backlash = 0.0;     ///< added [mm]
   double mass = 0.0;         ///< added [kg]
   double force = 0.0;        ///< added [N]
 };

@@ -6,6 +6,7 @@
 namespace twin::hal::mujoco {
 namespace {
 
+constexpr double kFastPower = 45.0;   // beyond it 1 + 9 exp(-power) is 1 to the last digit
 constexpr double kSmallDecay = 1e-6;  // lambda h below which the exponential is its first term
 
 }  // namespace
@@ -17,8 +18,11 @@ Lugre::Lugre(const FrictionParams& params, double step) noexcept
 
 double Lugre::stribeck(double velocity) const noexcept {
   const double ratio = velocity / params_.stribeck_velocity;
-  return params_.coulomb_at(velocity) *
-         (1.0 + (params_.static_ratio - 1.0) * std::exp(-ratio * ratio));
+  const double power = ratio * ratio;
+  if (power > kFastPower) {
+    return params_.coulomb_at(velocity);
+  }
+  return params_.coulomb_at(velocity) * (1.0 + (params_.static_ratio - 1.0) * std::exp(-power));
 }
 
 double Lugre::plastic_share(double velocity, double steady) const noexcept {

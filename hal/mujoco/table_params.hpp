@@ -86,15 +86,23 @@ struct LoadParams {
   double ripple_phase = 0.0;           ///< at position 0 [rad]
 };
 
-/// Ball screw.
+/// Ball screw. All but the lead is used by the compliant model only.
 struct ScrewParams {
   double lead = 10.0;       ///< travel per revolution [mm]
-  double stiffness = 60e3;  ///< between motor and slide, used by the compliant model only [N/mm]
+  double stiffness = 60e3;  ///< between motor and slide [N/mm]
   double damping = 4.0;     ///< the same [N s/mm]
+  double backlash = 0.0;    ///< play between screw and nut [mm]
 };
 
-/// Incremental encoder on the motor.
+/// Where an axis is measured.
+enum class EncoderPlace : std::uint8_t {
+  kMotor,  ///< the motor's angle as travel
+  kTable,  ///< the slide: a scale
+};
+
+/// Incremental encoder.
 struct EncoderParams {
+  EncoderPlace place = EncoderPlace::kMotor;
   double mm_per_count = 0.010;  ///< after fourfold evaluation, signed [mm/count]
   double phase = 0.5;           ///< where in a count the zero lies, 0 <= phase < 1 [counts]
   double delay = 0.0;           ///< from the position to the controller reading it [s]
@@ -153,6 +161,11 @@ struct TableParams {
   double pen_bandwidth_Hz = 20.0;  ///< of the Z slide that follows its reference [Hz]
   std::array<AxisParams, kServoAxes> axis{AxisParams{}, default_y_axis()};
   std::vector<Change> changes{};  ///< what changes while it runs
+
+  /// Whether its screws give: models that have them say "compliant" in their file's name.
+  bool has_giving_screws() const {
+    return model.find("compliant", model.find_last_of('/') + 1) != std::string::npos;
+  }
 };
 
 }  // namespace twin::hal::mujoco

@@ -53,7 +53,14 @@ TablePhysics::TablePhysics(ModelPtr model, DataPtr data, const TableJoints& join
       joints_(joints),
       mm_per_rad_{params.axis[kX].mm_per_rad(), params.axis[kY].mm_per_rad()},
       pen_omega_(2.0 * std::numbers::pi * params.pen_bandwidth_Hz),
-      screws_{params.axis[kX].screw, params.axis[kY].screw} {}
+      screws_{params.axis[kX].screw, params.axis[kY].screw},
+      encoder_at_{params.axis[kX].encoder.place, params.axis[kY].encoder.place} {
+  for (std::size_t axis = 0; axis < kServoAxes; ++axis) {
+    if (screws_[axis].backlash > 0.0) {
+      set_condition(axis, {});
+    }
+  }
+}
 
 AxisMotion TablePhysics::motion(std::size_t axis) const noexcept {
   const AxisJoints& joints = joints_.axis[axis];
@@ -65,10 +72,16 @@ AxisMotion TablePhysics::motion(std::size_t axis) const noexcept {
   return motion;
 }
 
-double TablePhysics::encoder_position(std::size_t axis) const noexcept {
+double TablePhysics::motor_position(std::size_t axis) const noexcept {
   const AxisJoints& joints = joints_.axis[axis];
   return joints.is_compliant() ? data_->qpos[joints.motor.qpos] * mm_per_rad_[axis]
                                : units::mm_from_m(data_->qpos[joints.slide.qpos]);
+}
+
+double TablePhysics::encoder_position(std::size_t axis) const noexcept {
+  return encoder_at_[axis] == EncoderPlace::kMotor
+             ? motor_position(axis)
+             : units::mm_from_m(data_->qpos[joints_.axis[axis].slide.qpos]);
 }
 
 double TablePhysics::pen_position() const noexcept {
@@ -80,7 +93,7 @@ void TablePhysics::set_condition(std::size_t axis, const AxisCondition& conditio
   Screw& changed = changed_[axis];
   changed.stiffness = screws_[axis].stiffness * condition.stiffness;
   changed.damping = screws_[axis].damping;
-  changed.backlash = condition.backlash;
+  changed.backlash = screws_[axis].backlash + condition.backlash;
   changed.mass = condition.mass;
   if (joints.is_compliant() && !changed.is_ours) {
     changed.is_ours = true;
@@ -93,7 +106,7 @@ double TablePhysics::screw_force(std::size_t axis) const noexcept {
   const Screw& screw = changed_[axis];
   const AxisMotion at = motion(axis);
   return mujoco::screw_force(
-      {at.position - encoder_position(axis), at.velocity - at.motor_speed * mm_per_rad_[axis]},
+      {at.position - motor_position(axis), at.velocity - at.motor_speed * mm_per_rad_[axis]},
       screw.stiffness, screw.damping, screw.backlash);
 }
 

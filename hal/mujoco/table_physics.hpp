@@ -24,7 +24,7 @@ class TablePhysics {
 
   /// Where an axis is. Real-time safe.
   AxisMotion motion(std::size_t axis) const noexcept;
-  /// What the encoder on the motor sees, as travel [mm]. Real-time safe.
+  /// What the encoder sees, on the motor as travel or on the slide [mm]. Real-time safe.
   double encoder_position(std::size_t axis) const noexcept;
   /// Height of the pen [mm]. Real-time safe.
   double pen_position() const noexcept;
@@ -52,7 +52,8 @@ class TablePhysics {
   DataPtr data_;
   TableJoints joints_;
   std::array<double, kServoAxes> mm_per_rad_;
-  double pen_omega_;  // bandwidth of the pen slide [rad/s]
+  double pen_omega_;                                       // bandwidth of the pen slide [rad/s]
+  double motor_position(std::size_t axis) const noexcept;  // as travel [mm]
   double screw_force(std::size_t axis) const noexcept;
 
   struct Screw {
@@ -63,6 +64,7 @@ class TablePhysics {
     bool is_ours = false;    // its force is computed here, not by MuJoCo
   };
   std::array<ScrewParams, kServoAxes> screws_;
+  std::array<EncoderPlace, kServoAxes> encoder_at_;
   std::array<Screw, kServoAxes> changed_{};
 };
 

@@ -162,6 +162,8 @@ std::vector<Setting> axis_settings(AxisParams& params) {
        "of the screw; used by xy_table_compliant.xml only"},
       {"screw_damping_N_s_per_m", &screw.damping, kPerMmFromPerM, 0.0, 1e6,
        "of the screw; used by xy_table_compliant.xml only"},
+      {"screw_backlash_um", &screw.backlash, kMilli, 0.0, 1000.0,
+       "play of the screw; used by xy_table_compliant.xml only"},
       {"encoder_um_per_count", &encoder.mm_per_count, kMilli, -10000.0, 10000.0,
        "encoder scale after fourfold evaluation; negative turns it round"},
       {"encoder_phase_counts", &encoder.phase, 1.0, 0.0, 1.0, "where in a count the zero lies"},

@@ -166,6 +166,7 @@ struct CircleArguments {
 
 struct IdentifyArguments {
   std::vector<std::string> traces;      ///< CSV files
+  std::vector<std::string> at_table;    ///< CSV files of an encoder at the table
   std::vector<std::string> validating;  ///< CSV files that are predicted only
   bool has_tables = false;              ///< the published tables take the place of traces
   MachineArguments machine;

@@ -52,7 +52,12 @@ Expected<void> identify_traces(const IdentifyArguments& arguments,
   fit.stop = &stop;
   TWIN_TRY(fit.fixed, keys_of("--fix", arguments.fixed, machine));
   TWIN_TRY(fit.freed, keys_of("--free", arguments.freed, machine));
-  TWIN_TRY(const auto recordings, read_recordings(arguments.traces, arguments, machine));
+  TWIN_TRY(auto recordings, read_recordings(arguments.traces, arguments, machine));
+  TWIN_TRY(auto at_table, read_recordings(arguments.at_table, arguments, machine));
+  for (studies::identify::Recording& recording : at_table) {
+    recording.is_at_table = true;
+    recordings.push_back(std::move(recording));
+  }
   TWIN_TRY(const auto validating, read_recordings(arguments.validating, arguments, machine));
   Expected<studies::identify::Identification> result;
   {
@@ -121,7 +126,8 @@ Expected<void> identify_tables(const IdentifyArguments& arguments,
 }  // namespace
 
 Expected<void> execute(const IdentifyArguments& arguments, const Environment& environment) {
-  if (arguments.has_tables != arguments.traces.empty()) {
+  const bool has_traces = !arguments.traces.empty() || !arguments.at_table.empty();
+  if (arguments.has_tables == has_traces) {
     return fail(ErrorCode::kUsage, arguments.has_tables
                                        ? "identify takes traces or --tables, not both"
                                        : "identify wants traces, or --tables; see twin identify "

@@ -3,8 +3,56 @@
 #include "cli/option_groups.hpp"
 #include "cli/options.hpp"
 
-// Options of the commands that ask the identified model before or after a run: compensate, shadow, fastest.
+// Options of the commands that find the identified model, or ask it before or after a run: identify,
+// compensate, shadow, fastest.
 namespace twin::cli {
+
+void add_options(CLI::App& command, IdentifyArguments& identify) {
+  command
+      .add_option("traces", identify.traces,
+                  "Traces: trace.csv or trace.h5 of a run, or any CSV or HDF5 of time, command and "
+                  "measured position")
+      ->type_name("TRACE ...");
+  command.add_flag("--tables", identify.has_tables,
+                   "Fit Tables 4 and 5 of Wang and Yau's paper in place of traces");
+  add_machine(command, identify.machine);
+  command
+      .add_option("--columns", identify.columns,
+                  "Columns of foreign traces, as in t=time:ms,x_cmd=ref,x_meas=pos:um; signals t, "
+                  "x_cmd, x_meas, x_V, x_force, x_torque, x_table (a scale on the table beside the "
+                  "motor's encoder) and those of y; units s ms us, 2ms of a counter, m mm um, V mV "
+                  "mm/s m/s rpm, N kN, N_m")
+      ->type_name("SIGNAL=COLUMN[:UNIT],...");
+  add_list(command, "--at-table", identify.at_table,
+           "Traces of the same machine with the encoder at the table: with others, they tell the "
+           "screw's stiffness and play")
+      ->type_name("TRACE");
+  add_list(command, "--validate", identify.validating,
+           "Traces that are predicted and not fitted; without, the end of each trace is held out")
+      ->type_name("TRACE");
+  add_no_plots(command, identify.has_plots);
+  command
+      .add_option("--out", identify.file,
+                  "Machine file to write; identify.json is put beside it "
+                  "[renders/identify/identified.toml]")
+      ->type_name("FILE.toml");
+  add_list(command, "--fix", identify.fixed,
+           "Keys that keep their value, as in table.x.output_delay_ms")
+      ->delimiter(',')
+      ->type_name("KEY,...");
+  add_list(command, "--free", identify.freed,
+           "Keys to fit though others would be taken first, as in table.x.moving_mass_kg")
+      ->delimiter(',')
+      ->type_name("KEY,...");
+  command.add_option("--seed", identify.seed, "Of the global search; same seed, same result")
+      ->capture_default_str();
+  command
+      .add_option("--evaluations", identify.evaluations,
+                  "Simulations of the global search at most [1200 an axis; tables: 1700]")
+      ->check(CLI::Range(0, 10000000))
+      ->type_name("N");
+  add_quiet(command, identify.verbosity, "Print errors and notes only");
+}
 
 void add_options(CLI::App& command, CompensateArguments& compensate) {
   command.footer(

@@ -8,10 +8,10 @@ namespace twin::config {
 namespace {
 
 // Units that keys of the table end in; of two that fit the longer is meant.
-constexpr std::array<std::string_view, 18> kUnits{
-    "N_m_per_A", "N_m_per_V", "N_per_V", "um_per_count", "rpm_per_V", "N_s_per_m",
-    "N_per_um",  "mm_per_s",  "kg_m2",   "counts",       "N_m",       "deg",
-    "ms",        "mV",        "Hz",      "kg",           "mm",        "N"};
+constexpr std::array<std::string_view, 19> kUnits{
+    "N_m_per_A", "N_m_per_V", "N_per_V", "um_per_count", "rpm_per_V", "N_s_per_m", "N_per_um",
+    "mm_per_s",  "kg_m2",     "counts",  "N_m",          "deg",       "ms",        "mV",
+    "Hz",        "kg",        "mm",      "um",           "N"};
 
 Binding binding_of(const std::string& section, const hal::mujoco::Setting& setting) {
   Binding binding{section, std::string(setting.key), "", setting.value, setting.min, setting.max,
@@ -33,6 +33,8 @@ void add_axis(std::vector<Binding>& list, const std::string& section,
                   hal::mujoco::kMaxDacBits, "resolution of the D/A converter over +-10 V"});
   list.push_back({section, "drive_mode", "", choice(axis.drive.mode, {"speed", "torque"}), 0.0, 0.0,
                   "what the drive makes of V-REF"});
+  list.push_back({section, "encoder_at", "", choice(axis.encoder.place, {"motor", "table"}), 0.0,
+                  0.0, "what the encoder measures"});
   list.push_back({section, "friction_law", "",
                   choice(axis.friction.law, {"lugre", "coulomb", "maxwell"}), 0.0, 0.0,
                   "how friction follows from the motion"});

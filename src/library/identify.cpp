@@ -57,7 +57,11 @@ Identification identify(const std::vector<std::string>& traces, const Settings& 
   fit.stop = options.stop;
   fit.progress = options.progress;
   const auto columns = value_of(inner::parse_columns(options.columns));
-  const auto recordings = recordings_of(traces, columns, machine);
+  auto recordings = recordings_of(traces, columns, machine);
+  for (inner::Recording& recording : recordings_of(options.at_table, columns, machine)) {
+    recording.is_at_table = true;
+    recordings.push_back(std::move(recording));
+  }
   const auto validating = recordings_of(options.validating, columns, machine);
   const inner::Identification result =
       value_of(inner::identify(recordings, machine, fit, validating));

@@ -89,7 +89,8 @@ void DrivenAxis::step_with_screw(double place) noexcept {
       axis_.step({place, slide_velocity_, motor_velocity_ * rad_per_mm_}, 0.0);
   const double pull = hal::mujoco::screw_force(
       {place_of_slide_ - place_of_motor_, slide_velocity_ - motor_velocity_},
-      params_.screw.stiffness * condition_.stiffness, params_.screw.damping, condition_.backlash);
+      params_.screw.stiffness * condition_.stiffness, params_.screw.damping,
+      params_.screw.backlash + condition_.backlash);
   slide_velocity_ += slide_rate_ * (forces.slide - pull);
   motor_velocity_ += motor_rate_ * (forces.torque * force_per_torque_ + pull);
   place_of_slide_ += step_ * slide_velocity_;
@@ -106,7 +107,8 @@ void DrivenAxis::advance(double place, std::span<const double> hum) noexcept {
     } else {
       step_with_screw(place);
     }
-    reported_ = feedback_.step(place_of_motor_);
+    reported_ = feedback_.step(
+        params_.encoder.place == hal::mujoco::EncoderPlace::kTable ? slide() : place_of_motor_);
   }
 }
 

@@ -19,6 +19,9 @@ struct IdentifyOptions {
   std::string columns{};
   std::vector<std::string> fixed{};  ///< keys that keep their value, with their unit or without
   std::vector<std::string> freed{};  ///< keys that are fitted though they would be held
+  /// Further traces, recorded with the encoder at the table in place of the motor: with the others
+  /// they tell the screw's stiffness and play.
+  std::vector<std::string> at_table{};
   /// Recordings that are predicted only, in the same columns; empty: the last 30 % of each trace.
   std::vector<std::string> validating{};
   std::size_t evaluations = 0;  ///< simulations of the global search; 0: as many as usual

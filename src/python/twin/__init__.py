@@ -165,6 +165,7 @@ def identify(
     columns="",
     fixed=(),
     freed=(),
+    at_table=(),
     validate=(),
     evaluations=0,
     seed=1,
@@ -177,6 +178,7 @@ def identify(
         columns: which columns are which signal, "SIGNAL=COLUMN[:UNIT],..."; "": as trace.csv
         fixed: keys that keep their value
         freed: keys that are fitted though they would be held
+        at_table: further traces, recorded with the encoder at the table: they tell stiffness and play of the screw
         validate: a recording that is predicted and not fitted, or several; (): the last 30 % of each trace
         evaluations: simulations of the global search; 0: as many as usual
         seed: of the global search; the same seed gives the same result
@@ -190,6 +192,7 @@ def identify(
         columns=columns,
         fixed=list(fixed),
         freed=list(freed),
+        at_table=_paths(at_table),
         validating=_paths(validate),
         evaluations=evaluations,
         seed=seed,

@@ -315,6 +315,7 @@ def identify(
     columns: str = "",
     fixed: Iterable[str] = (),
     freed: Iterable[str] = (),
+    at_table: Union[_Path, Iterable[_Path]] = (),
     validate: Union[_Path, Iterable[_Path]] = (),
     evaluations: int = 0,
     seed: int = 1,

@@ -76,6 +76,7 @@ struct AxisFit {
   bool turns_force = false;     ///< the recorded force counts the other way than the position
   double residual_rms = 0.0;    ///< RMS of the open-loop residual; in torque mode closed-loop [mm]
   double rounding_rms = 0.0;    ///< RMS of the encoder's rounding, 1 count / sqrt(12) [mm]
+  double scale_rms = 0.0;       ///< RMS of what is left of scales on the table; 0: none [mm]
   std::size_t evaluations = 0;  ///< number of simulations in the global search
   bool was_stopped = false;
 

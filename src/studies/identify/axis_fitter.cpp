@@ -38,9 +38,7 @@ AxisFitter::AxisFitter(AxisProblem&& problem, FitOptions options)
       start_(problem_.base()),
       current_(problem_.base()) {
   for (Candidate& candidate : axis_candidates(start_, problem_.axis())) {
-    const bool is_wanted = candidate.when == Candidate::When::kAlways ||
-                           (candidate.when == Candidate::When::kWithVolts) == has_volts();
-    if (!is_wanted) {
+    if (!is_wanted(candidate.when)) {
       continue;
     }
     Searched parameter;
@@ -70,6 +68,19 @@ AxisFitter::AxisFitter(AxisProblem&& problem, FitOptions options)
   }
 }
 
+bool AxisFitter::is_wanted(Candidate::When when) const {
+  switch (when) {
+    case Candidate::When::kWithVolts:
+      return has_volts();
+    case Candidate::When::kWithoutVolts:
+      return !has_volts();
+    case Candidate::When::kWithTable:
+      return problem_.ever_shows_table();
+    default:
+      return true;
+  }
+}
+
 void AxisFitter::report(double share) const {
   if (options_.progress) {
     options_.progress(share);
@@ -89,8 +100,10 @@ void AxisFitter::hold(Searched& parameter, Verdict verdict, double sigma, double
 
 AxisFitter::Indices AxisFitter::free_indices() const {
   Indices indices;
+  const bool shows_table = problem_.shows_table();
   for (std::size_t i = 0; i < searched_.size(); ++i) {
-    if (!searched_[i].is_held && !searched_[i].candidate.is_analysed_only) {
+    const bool is_seen = shows_table || searched_[i].candidate.when != Candidate::When::kWithTable;
+    if (!searched_[i].is_held && !searched_[i].candidate.is_analysed_only && is_seen) {
       indices.push_back(i);
     }
   }
@@ -137,7 +150,8 @@ void AxisFitter::align() {
 
 /// One global search from where the fit stands, and the local one after it.
 void AxisFitter::search(int number, const config::MachineFile& begin) {
-  const config::MachineFile best = std::exchange(current_, begin);
+  const config::MachineFile best = current_;
+  current_ = begin;
   const double best_cost = cost_of(best);
   const ParameterSet set = set_of(free_indices());
   problem_.set_base(current_);
@@ -285,6 +299,7 @@ void AxisFitter::estimate_directly() {
   if (!has_volts()) {
     begin_from_steady_lag();
   }
+  begin_screw();
 }
 
 AxisFit AxisFitter::run() {
@@ -332,14 +347,17 @@ AxisFit AxisFitter::finish() {
   doubt_hum_without_amplitude();
   widen_by_mass();
   judge_lack_of_fit();
+  judge_scales();
   doubt_by_lacking_features();
   if (!has_volts()) {
     doubt_gains_without_volts();
   }
+  derive_lost_motion();
   fit_.machine = current_;
   for (Searched& parameter : searched_) {
     fit_.parameters.push_back(std::move(parameter.result));
   }
+  note_screw_that_is_not_seen();
   fit_.parameters.push_back(std::move(count_));
   std::ranges::move(loads_, std::back_inserter(fit_.parameters));
   std::ranges::move(gains_, std::back_inserter(fit_.parameters));

@@ -27,6 +27,7 @@ class AxisFitter {
   using Indices = std::vector<std::size_t>;  // into searched_
 
   bool has_volts() const { return problem_.has_volts(); }
+  bool is_wanted(Candidate::When when) const;
   bool is_free(const std::string& name) const;
   void estimate_directly();
   void estimate_gains();
@@ -43,7 +44,9 @@ class AxisFitter {
   void begin_from_steady_lag();
   void join_held_out();
   void judge_lack_of_fit();
-  std::vector<FeatureDoubt> feature_doubts(const Indices& indices);
+  Eigen::MatrixXd derivatives(const Indices& indices);
+  std::vector<FeatureDoubt> feature_doubts(const Eigen::MatrixXd& j);
+  double widening() const;
   void doubt_by_lacking_features();
   std::vector<std::string> what_residual_goes_with();
   void doubt_gains_without_volts();
@@ -51,6 +54,12 @@ class AxisFitter {
   double closed_loop_rms() const;
   void complete_torque_mode();
   AxisFit finish_torque_mode();
+  void begin_screw();
+  void judge_scales();
+  Eigen::VectorXd lost_motion_by(const Indices& indices) const;
+  double lost_motion_deviation(const Indices& indices, const Indices& held);
+  void derive_lost_motion();
+  void note_screw_that_is_not_seen();
   void estimate_hum();
   void drop_doubtful_hum();
   void align();

@@ -34,7 +34,9 @@ void AxisFitter::widen_by_mass() {
     const bool scales = result.key.ends_with("coulomb_friction_N") ||
                         result.key.ends_with("viscous_friction_N_s_per_m") ||
                         result.key.ends_with("bristle_stiffness_N_per_um") ||
-                        result.key.ends_with("bristle_damping_N_s_per_m");
+                        result.key.ends_with("bristle_damping_N_s_per_m") ||
+                        result.key.ends_with("screw_stiffness_N_per_um") ||
+                        result.key.ends_with("screw_damping_N_s_per_m");
     if (scales && !parameter.is_measured && result.verdict == Verdict::kIdentified) {
       result.sigma = std::hypot(result.sigma, mass->result.relative * result.value);
       result.relative = std::hypot(result.relative, mass->result.relative);
@@ -42,15 +44,27 @@ void AxisFitter::widen_by_mass() {
   }
 }
 
-/// What each feature that no search fits would move the identified parameters by.
-std::vector<FeatureDoubt> AxisFitter::feature_doubts(const Indices& indices) {
+/// Derivatives of the residual by parameters in their ranges, at the fit.
+Eigen::MatrixXd AxisFitter::derivatives(const Indices& indices) {
   problem_.set_base(current_);
   const ParameterSet set = set_of(indices);
   const std::vector<double> units = set.units(current_);
-  const Eigen::MatrixXd j = central_jacobian(
+  return central_jacobian(
       [&](const Eigen::VectorXd& u) { return residuals(set, u); },
       Eigen::Map<const Eigen::VectorXd>(units.data(), static_cast<Eigen::Index>(units.size())),
       kFeatureDifference);
+}
+
+/// How much wider deviations to first order are to be: by as much as the residual is larger than
+/// what rounding makes, and by kDoubt at least.
+double AxisFitter::widening() const {
+  const double excess =
+      fit_.rounding_rms > 0.0 ? std::max(fit_.residual_rms / fit_.rounding_rms - 1.0, 0.0) : 0.0;
+  return kDoubt * (1.0 + kDoubtPerExcess * excess);
+}
+
+/// What each feature that no search fits would move parameters of these derivatives by.
+std::vector<FeatureDoubt> AxisFitter::feature_doubts(const Eigen::MatrixXd& j) {
   const Eigen::VectorXd residual = problem_.residuals(current_);
   const std::vector<LackingFeature> features =
       lacking_features(current_, problem_.axis(), has_volts());
@@ -82,7 +96,7 @@ void AxisFitter::doubt_by_lacking_features() {
   if (indices.empty()) {
     return;
   }
-  const std::vector<FeatureDoubt> doubts = feature_doubts(indices);
+  const std::vector<FeatureDoubt> doubts = feature_doubts(derivatives(indices));
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     const FeatureDoubt& most = *std::ranges::max_element(
@@ -148,11 +162,10 @@ std::vector<std::string> AxisFitter::what_residual_goes_with() {
 /// makes, and by kDoubt at least, which is what deviations to first order leave out.
 void AxisFitter::judge_lack_of_fit() {
   if (fit_.rounding_rms > 0.0 && fit_.residual_rms <= kLackOfFit * fit_.rounding_rms) {
-    const double excess = std::max(fit_.residual_rms / fit_.rounding_rms - 1.0, 0.0);
+    const double wider = widening();
     for (Searched& parameter : searched_) {
       FittedParameter& result = parameter.result;
       if (result.verdict == Verdict::kIdentified && !parameter.is_measured) {
-        const double wider = kDoubt * (1.0 + kDoubtPerExcess * excess);
         result.sigma *= wider;
         result.relative *= wider;
         if (result.relative > kMostRelative) {

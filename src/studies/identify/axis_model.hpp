@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "hal/mujoco/encoder.hpp"
 #include "hal/mujoco/table_axis.hpp"
 #include "motion/servo/axis_servo.hpp"
+#include "studies/identify/sine_steps.hpp"
 
 namespace twin::studies::identify {
 
@@ -22,6 +22,7 @@ struct AxisSetup {
   motion::Gains servo;           ///< gains of the position loop
   double period = 0.001;         ///< interpolation period T [s]
   double physics_step = 1e-4;    ///< longest integration step; it is shortened to divide T [s]
+  bool has_screw = false;        ///< the screw gives and may have play
 };
 
 /// The setup of one axis of a machine file.
@@ -30,7 +31,7 @@ AxisSetup axis_setup(const config::MachineFile& machine, hal::Axis axis);
 /// State of one axis at the instant at which the controller reads its encoder.
 struct AxisRow {
   double encoder = 0.0;   ///< position by the encoder counts [mm]
-  double table = 0.0;     ///< true position [mm]
+  double table = 0.0;     ///< true position of the slide [mm]
   double feedback = 0.0;  ///< position that the encoder rounds, late by its delay [mm]
   double volts = 0.0;     ///< drive command of this period, before the converter [V]
   double force = 0.0;     ///< of the motor at the slide, in the last physics step before it [N]
@@ -51,14 +52,15 @@ struct BeginOfMotion {
 ///                    ^                                                              |
 ///                    '------------------------ position ----------------------------'
 ///
-/// With rigid screws the two slides of the table do not act on each other. So each axis can be
-/// simulated alone, with the same result as the whole table up to rounding. Converter, drive,
-/// friction and encoder are the classes that the table uses. The mass M = m + J (2 pi / lead)^2
-/// [kg] is integrated over the physics step h as in MuJoCo,
+/// The two slides of the table do not act on each other. So each axis can be simulated alone, with
+/// the same result as the whole table up to rounding. Converter, drive, friction and encoder are the
+/// classes that the table uses. The mass M = m + J (2 pi / lead)^2 [kg] is integrated over the
+/// physics step h as in MuJoCo,
 ///   v' = v + h F / M,   x' = x + h v'.
+/// A screw that gives ties two such masses, rotor and slide, by hal::mujoco::screw_force().
 /// Each period has the order of the controller: read (one period of time passes), servo, write.
 ///
-/// Compliant screws (xy_table_compliant.xml) and the pen are not modelled.
+/// The pen is not modelled.
 class AxisModel {
  public:
   /// Starts with the slide at rest and the servo off. Allocates.
@@ -87,27 +89,35 @@ class AxisModel {
 
  private:
   void advance() noexcept;
+  void step_rigid() noexcept;
+  void step_with_screw() noexcept;
+  double measured_place() const noexcept;
   void write(double volts) noexcept;
   AxisRow row() const noexcept;
 
   hal::mujoco::AxisParams params_;
   hal::Dac dac_;
-  hal::mujoco::TableAxis axis_;
+  hal::mujoco::TableAxis axis_;  // without hum
+  SineSteps hum_;                // on V-REF [V]
   hal::mujoco::Encoder encoder_;
   motion::AxisServo servo_;
   double mm_per_count_;
-  double rad_per_mm_;        // of the motor [rad/mm]
-  double force_per_torque_;  // at the slide [N/(N.m)]
-  double rate_per_force_;    // h / M, change of velocity in a step per force [mm/s/N]
-  double step_;              // physics step h [s]
-  int steps_;                // physics steps in a period
-  std::int64_t steps_done_ = 0;
+  double rad_per_mm_;                // of the motor [rad/mm]
+  double force_per_torque_;          // at the slide [N/(N.m)]
+  double rate_per_force_;            // h / M, change of velocity in a step per force [mm/s/N]
+  double step_;                      // physics step h [s]
+  int steps_;                        // physics steps in a period
   double period_;                    // [s]
   double force_ = 0.0;               // of the motor at the slide [N]
   hal::mujoco::DelayLine feedback_;  // of the encoder
   double reported_;                  // position behind it [mm]
   double position_;                  // of the slide [mm]
   double velocity_ = 0.0;            // [mm/s]
+  bool has_screw_;
+  double slide_rate_;            // h / m, of a slide behind a screw that gives [mm/s/N]
+  double motor_rate_;            // the same of its rotor [mm/s/N]
+  double motor_position_;        // as travel; with such a screw only [mm]
+  double motor_velocity_ = 0.0;  // [mm/s]
   bool has_failed_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include "config/machine_file.hpp"
 #include "studies/identify/axis_record.hpp"
 #include "studies/identify/parameter.hpp"
+#include "studies/identify/table_side.hpp"
 
 namespace twin::studies::identify {
 
@@ -37,6 +38,10 @@ inline constexpr double kFarTravel = 1e4;
 /// Where the model is known to lack something and the motor's force was recorded, the differences of
 /// recorded and simulated force, times a weight, are residuals beside those of the position: what
 /// the model lacks is then not made up for by parameters that make a wrong force.
+///
+/// Where the table's position was recorded beside the motor's, it makes residuals of its own (see
+/// TableSide), with a weight for its finer counts. A record whose encoder is at the table is
+/// compared with the table's position.
 class AxisProblem {
  public:
   static constexpr double kForgetting = 0.5;  ///< time constant of H [s]
@@ -48,8 +53,8 @@ class AxisProblem {
   /// @param records  one for each trace
   AxisProblem(config::MachineFile base, hal::Axis axis, std::vector<AxisRecord> records);
 
-  /// Residuals rho of all records in use, one record after the other, and after them those of the
-  /// force, if it has a weight [mm]. They are very large if the simulated motion is unstable.
+  /// Residuals rho of all records in use, one record after the other, after them those of the force,
+  /// if it has a weight, and those of scales on the table, if there are any [mm]. They are very large if the simulated motion is unstable.
   /// @param set    the parameters to be changed
   /// @param units  their values, each scaled to 0..1 (see ParameterSet)
   Eigen::VectorXd residuals(const ParameterSet& set, std::span<const double> units) const {
@@ -68,6 +73,15 @@ class AxisProblem {
   }
   /// Recorded less simulated force of all records in use [N].
   Eigen::VectorXd force_difference(const config::MachineFile& machine) const;
+
+  /// Whether a record in use has the position of the table.
+  bool shows_table() const;
+  /// Whether a record has, in use or not.
+  bool ever_shows_table() const;
+  /// RMS of the residuals of the scales, without their weight [mm]; 0 where there are none.
+  double scale_rms(const config::MachineFile& machine) const;
+  /// What rounding to the counts of the scales makes of it [mm]; 0 where they have none.
+  double scale_rounding_rms() const;
 
   /// Makes the force a part of the residuals. @param weight  0: it is none [mm/N]
   void weigh_force(double weight) noexcept { force_weight_ = weight; }
@@ -103,8 +117,18 @@ class AxisProblem {
   struct Apart {
     Eigen::VectorXd position;  // y - x [mm]
     Eigen::VectorXd force;     // recorded less simulated, 0 where none was recorded [N]
+    Eigen::VectorXd scale;     // recorded less simulated position of the table, the same [mm]
+  };
+  /// A record's side of the table, and the count of its scale.
+  struct Table {
+    TableSide side;
+    double count = 0.0;  // of the scale [mm]; 0: none
   };
   Apart apart(const config::MachineFile& machine, std::size_t record, double hum_phase) const;
+  void make_tables();
+  void take(Eigen::Ref<Eigen::VectorXd> position, std::size_t record) const;
+  Eigen::Index size() const noexcept;  // of all residuals
+  Eigen::Index scales_begin() const noexcept { return force_weight_ > 0.0 ? 2 * rows_ : rows_; }
 
   config::MachineFile base_;
   hal::Axis axis_;
@@ -113,6 +137,9 @@ class AxisProblem {
   std::size_t used_ = 0;
   Eigen::Index rows_ = 0;      // of the records in use
   double force_weight_ = 0.0;  // [mm/N]
+  std::vector<Table> tables_;  // of the records
+  bool has_scale_ = false;     // any record in use
+  double scale_weight_ = 1.0;
 };
 
 }  // namespace twin::studies::identify

@@ -132,6 +132,9 @@ AxisRecord axis_record(const Recording& recording, hal::Axis axis,
     to_force = params.torque_per_volt() / units::m_from_mm(params.mm_per_rad());
   }
   std::ranges::for_each(record.force, [&](double& force) { force *= to_force; });
+  record.scale = signals.scale;
+  record.is_at_table =
+      recording.is_at_table || params.encoder.place == hal::mujoco::EncoderPlace::kTable;
   record.is_left_out = interpolated_rows(record.measured);
   record.begin = begin_of(record, recording.period);
   return record;
@@ -148,7 +151,7 @@ AxisRecord part_of(const AxisRecord& record, std::size_t first, std::size_t rows
   };
   AxisRecord part{cut(record.command), cut(record.measured),    cut(record.volts),
                   cut(record.force),   cut(record.is_left_out), {},
-                  record.trace};
+                  record.trace,        cut(record.scale),       record.is_at_table};
   part.begin = first == 0 ? record.begin : begin_of(part, period);
   return part;
 }
@@ -168,6 +171,7 @@ AxisRun follow_record(const config::MachineFile& machine, hal::Axis axis,
                       const AxisRecord& record) {
   AxisSetup setup = axis_setup(machine, axis);
   setup.axis.travel = 1e4;
+  setup.axis.encoder.place = place_of(record);
   return record.begin ? simulate_moving(setup, record.command, *record.begin)
                       : simulate(setup, record.command);
 }

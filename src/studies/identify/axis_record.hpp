@@ -21,9 +21,14 @@ struct AxisRecord {
   std::vector<bool> is_left_out{};         ///< rows that do not count; empty: none
   std::optional<BeginOfMotion> begin{};    ///< where it begins in motion
   std::string trace{};                     ///< name of its file
+  std::vector<double> scale{};  ///< position of the table beside `measured` [mm]; the same
+  bool is_at_table = false;     ///< `measured` is the table's, not the motor's
 
   bool has_volts() const noexcept { return !volts.empty(); }
   bool has_force() const noexcept { return !force.empty(); }
+  bool has_scale() const noexcept { return !scale.empty(); }
+  /// Whether it has the position of the table, be it beside that of the motor.
+  bool shows_table() const noexcept { return is_at_table || has_scale(); }
   bool counts(std::size_t row) const { return is_left_out.empty() || !is_left_out[row]; }
 };
 
@@ -34,6 +39,11 @@ struct AxisRecord {
 /// position is between two counts are left out: they were interpolated over late periods.
 AxisRecord axis_record(const Recording& recording, hal::Axis axis,
                        const config::MachineFile& machine);
+
+/// Where the measured positions of a record are from.
+inline hal::mujoco::EncoderPlace place_of(const AxisRecord& record) {
+  return record.is_at_table ? hal::mujoco::EncoderPlace::kTable : hal::mujoco::EncoderPlace::kMotor;
+}
 
 /// The rows [first, first + rows) of a record, as a record of its own.
 AxisRecord part_of(const AxisRecord& record, std::size_t first, std::size_t rows, double period);

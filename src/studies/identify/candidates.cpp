@@ -57,7 +57,13 @@ constexpr std::array kLines{
     CandidateRow{"servo", "kf", -1.5, 1.5, kLinear, "velocity feedforward Kf", 19,
                  When::kWithoutVolts},
     CandidateRow{"servo", "ka_s", -0.01, 0.01, kLinear, "acceleration feedforward Ka", 10,
-                 When::kWithoutVolts, 4e-4}};
+                 When::kWithoutVolts, 4e-4},
+    CandidateRow{"table", "screw_stiffness_N_per_um", 0, 0, kLog, "screw stiffness", 8,
+                 When::kWithTable},
+    CandidateRow{"table", "screw_damping_N_s_per_m", 0, 2e4, kLinear, "screw damping", 1,
+                 When::kWithTable, 100.0},
+    CandidateRow{"table", "screw_backlash_um", 0, 500, kLinear, "screw backlash", 9,
+                 When::kWithTable, 1.0}};
 
 constexpr double kMostViscous = 170.0;     // over the mass [N s/m/kg]
 constexpr double kUsualMass = 12.0;        // of a light axis [kg]
@@ -69,6 +75,15 @@ double most_gain(const config::MachineFile& machine) {
   const double step =
       machine.period / hal::mujoco::steps_per_period(machine.period, machine.table.physics_step);
   return 0.9 / (2.0 * std::numbers::pi * std::max(step, machine.table.physics_step));
+}
+
+/// Stiffness of a screw that the physics step bears: (omega h)^2 = 2 of rotor and slide [N/um].
+double most_stiffness(const config::MachineFile& machine, hal::Axis axis) {
+  const hal::mujoco::AxisParams& params = machine.table.axis[axis];
+  const double step =
+      machine.period / hal::mujoco::steps_per_period(machine.period, machine.table.physics_step);
+  const double inverse = 1.0 / params.rotor_mass() + 1.0 / params.moving_mass;  // [1/kg]
+  return std::max(2.0 / (inverse * step * step) * 1e-6, 1.0);
 }
 
 /// Keys of everything that a fit can change.
@@ -110,6 +125,9 @@ std::vector<Candidate> axis_candidates(const config::MachineFile& machine, hal::
     } else if (key.starts_with("velocity_gain")) {
       min = 1.0;
       max = most_gain(machine);
+    } else if (key.starts_with("screw_stiffness")) {
+      min = 0.5;
+      max = most_stiffness(machine, axis);
     } else if (key.starts_with("vref_scale")) {
       std::tie(min, max) = std::minmax({0.5 * scale, 2.0 * scale});
     }

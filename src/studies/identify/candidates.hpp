@@ -14,8 +14,9 @@ struct Candidate {
   Parameter parameter;
   std::string name;   ///< for people: "Coulomb friction"
   int hold_rank = 0;  ///< of several that the data cannot tell apart, the lowest is held
-  /// Without a record of the drive command the loop's gains are fitted along.
-  enum class When { kAlways, kWithVolts, kWithoutVolts } when = When::kAlways;
+  /// Without a record of the drive command the loop's gains are fitted along; the screw where the
+  /// table's position was recorded.
+  enum class When { kAlways, kWithVolts, kWithoutVolts, kWithTable } when = When::kAlways;
   double natural = 0.0;           ///< a value so small is as good as 0, in the key's unit
   bool is_analysed_only = false;  ///< not searched for, only looked at: it scales with others
 };

@@ -18,6 +18,7 @@ namespace twin::studies::identify {
 namespace {
 
 constexpr std::size_t kReasonWidth = 76;  // of a line of a reason
+constexpr double kSameValue = 1e-6;       // relative
 constexpr TextLayout kParameters{.notes = Notes::kShown};
 constexpr TextLayout kPredictions{.row_width = 27, .cell_width = 7};
 
@@ -28,6 +29,13 @@ bool is_identified(const FittedParameter& parameter) {
 /// Whether the value is one that the data gave, trusted or not.
 bool is_found(const FittedParameter& parameter) {
   return is_identified(parameter) || parameter.verdict == Verdict::kUncertain;
+}
+
+/// Whether the value is one that the data do not show, but the fit is worse without.
+bool is_kept_as_fitted(const FittedParameter& parameter) {
+  const double size = std::max(std::abs(parameter.value), std::abs(parameter.start));
+  return (parameter.verdict == Verdict::kUnidentified || parameter.verdict == Verdict::kAtBound) &&
+         std::abs(parameter.value - parameter.start) > kSameValue * size;
 }
 
 /// Digits so that the uncertainty shows with two of them.
@@ -95,11 +103,14 @@ std::string reason_text(const FittedParameter& p) {
 /// What the residual says of the fit.
 std::string residual_text(const AxisFit& fit) {
   std::string text = fmt::format("residual {:.3g} um RMS", units::um_from_mm(fit.residual_rms));
+  if (fit.scale_rms > 0.0) {
+    text += fmt::format(", {:.3g} um of the scale on the table", units::um_from_mm(fit.scale_rms));
+  }
   if (!(fit.rounding_rms > 0.0)) {
     return text + "\n";
   }
-  text += fmt::format("; rounding to counts alone makes {:.3g} um\n",
-                      units::um_from_mm(fit.rounding_rms));
+  text += fmt::format("{}rounding to counts alone makes {:.3g} um\n",
+                      fit.scale_rms > 0.0 ? ";\n" : "; ", units::um_from_mm(fit.rounding_rms));
   if (fit.residual_rms > kLackOfFit * fit.rounding_rms) {
     text += fmt::format(
         "{:.3g} times what rounding makes: the model lacks something, and what is\n"
@@ -118,12 +129,15 @@ std::string residual_text(const AxisFit& fit) {
 std::string axis_table(const AxisFit& fit, hal::Axis axis) {
   TextTable table;
   table.row_head = axis == hal::kX ? "X axis" : "Y axis";
-  table.head = {"value", "1 sigma", "relative"};
+  table.head = {"value", "sigma", "relative"};
   std::string reasons;
+  std::string held;
   std::string doubts;
   for (const FittedParameter& parameter : fit.parameters) {
     table.lines.push_back(parameter_line(parameter));
-    std::string& list = parameter.verdict == Verdict::kUncertain ? doubts : reasons;
+    std::string& list = parameter.verdict == Verdict::kUncertain ? doubts
+                        : is_kept_as_fitted(parameter)           ? held
+                                                                 : reasons;
     list += parameter.why.empty() ? "" : reason_text(parameter);
   }
   for (const FittedParameter& parameter : fit.derived) {
@@ -134,6 +148,11 @@ std::string axis_table(const AxisFit& fit, hal::Axis axis) {
     text += inverse_table(*fit.inverse, *fit.two_way);
   }
   text += doubts.empty() ? "" : "uncertain:\n" + doubts;
+  text += held.empty()
+              ? ""
+              : "not shown, these are kept where the fit had them, since at their starting\n"
+                "values it would be worse:\n" +
+                    held;
   return reasons.empty() ? text : text + "not shown, these keep their starting values:\n" + reasons;
 }
 
@@ -171,7 +190,9 @@ std::string comment(const FittedParameter& p) {
       return "uncertain" + (p.why.empty() ? "" : ": " + p.why);
     case Verdict::kUnidentified:
     case Verdict::kAtBound:
-      return "not shown, starting value: " + p.why;
+      return (is_kept_as_fitted(p) ? "not shown, kept as fitted: "
+                                   : "not shown, starting value: ") +
+             p.why;
     case Verdict::kFixed:
       return "fixed";
   }
@@ -195,6 +216,7 @@ Json parameter_json(const FittedParameter& p) {
 
 Json axis_json(const AxisFit& fit) {
   Json json{{"residual_rms_um", rounded(units::um_from_mm(fit.residual_rms))},
+            {"scale_residual_rms_um", rounded(units::um_from_mm(fit.scale_rms))},
             {"rounding_rms_um", rounded(units::um_from_mm(fit.rounding_rms))},
             {"search_evaluations", fit.evaluations},
             {"residual_goes_with", fit.seems_to_lack},

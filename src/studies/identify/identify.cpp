@@ -17,6 +17,7 @@
 namespace twin::studies::identify {
 namespace {
 
+constexpr const char* kModelWithScrews = "xy_table_compliant.xml";
 constexpr double kHeldOutShare = 0.3;      // of each recording
 constexpr double kPoorPrediction = 0.2;    // of the RMS tracking error
 constexpr double kPeriodTolerance = 1e-4;  // relative, between recordings
@@ -35,7 +36,26 @@ Expected<void> check_periods(const std::vector<Recording>& recordings, double pe
   return {};
 }
 
-/// The records of one axis, of the recordings in which it moves.
+/// Gives the machine screws that give where the table's position was recorded.
+void give_screws_where_seen(const std::vector<Recording>& recordings, Identification& result) {
+  hal::mujoco::TableParams& table = result.machine.table;
+  bool is_seen = false;
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    for (const Recording& recording : recordings) {
+      is_seen = is_seen || (recording.has_moved[axis] &&
+                            (recording.is_at_table || !recording.axis[axis].scale.empty() ||
+                             table.axis[axis].encoder.place == hal::mujoco::EncoderPlace::kTable));
+    }
+  }
+  if (!is_seen || table.has_giving_screws()) {
+    return;
+  }
+  table.model = std::filesystem::path(table.model).replace_filename(kModelWithScrews).string();
+  result.notes.push_back(fmt::format(
+      "the table's position was recorded: table.model is {}, whose screws give", kModelWithScrews));
+}
+
+/// The records of one axis, of the recordings in which it moves: those of the motor's encoder first.
 std::vector<AxisRecord> records_of(const std::vector<Recording>& recordings, hal::Axis axis,
                                    const config::MachineFile& machine) {
   std::vector<AxisRecord> records;
@@ -44,6 +64,7 @@ std::vector<AxisRecord> records_of(const std::vector<Recording>& recordings, hal
       records.push_back(axis_record(recording, axis, machine));
     }
   }
+  std::ranges::stable_partition(records, std::logical_not(), &AxisRecord::is_at_table);
   if (!std::ranges::all_of(records, &AxisRecord::has_volts)) {
     std::ranges::for_each(records, [](AxisRecord& record) { record.volts.clear(); });
   }
@@ -214,6 +235,7 @@ Expected<Identification> identify(const std::vector<Recording>& recordings,
       std::ranges::copy(recording.notes, std::back_inserter(result.notes));
     }
   }
+  give_screws_where_seen(recordings, result);
   Records records;
   std::vector<hal::Axis> axes;
   for (const hal::Axis axis : {hal::kX, hal::kY}) {
@@ -241,6 +263,9 @@ Expected<Identification> identify(const std::vector<Recording>& recordings,
       std::ranges::for_each(records[axis], turn_force);
     }
     result.machine.table.axis[axis] = fit.machine.table.axis[axis];
+    if (std::ranges::all_of(records[axis], &AxisRecord::is_at_table)) {
+      result.machine.table.axis[axis].encoder.place = hal::mujoco::EncoderPlace::kTable;
+    }
     result.machine.servo[axis] = fit.machine.servo[axis];
     for (const std::string& note : fit.notes) {
       result.notes.push_back(fmt::format("{}: {}", axis == hal::kX ? "X" : "Y", note));

@@ -17,6 +17,9 @@ constexpr double kLongestStep = 0.1;  // of a coordinate in one iteration
 constexpr double kUnseen = 1e-14;     // share of the largest eigenvalue below which J sees nothing
 
 constexpr double kTiny = 1e-100;
+constexpr int kAllTries = 100;      // of dampings: all there are
+constexpr int kMostReuses = 4;      // of derivatives that are brought up to date
+constexpr double kGoodGain = 1e-4;  // of a step, after which they are used again
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -38,14 +41,16 @@ bool is_stopped(const LeastSquaresOptions& options) {
   return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
 }
 
-/// Tries steps of growing damping until one gains. @returns the share of the cost that was gained
-double improve(const Residuals& residuals, LeastSquaresFit& fit, double& damping,
-               const LeastSquaresOptions& options) {
-  const MatrixXd j = jacobian(residuals, fit.x, fit.residual, options.difference);
+/// Tries steps of growing damping until one gains, and brings J up to date by what the residual
+/// changed by along the step s: J + (r' - r - J s) s^T / (s^T s) [Broyden 1965].
+/// @param tries  steps at most
+/// @returns the share of the cost that was gained
+double improve(const Residuals& residuals, LeastSquaresFit& fit, MatrixXd& j, double& damping,
+               int tries, const LeastSquaresOptions& options) {
   VectorXd gradient = transposed_product(j, fit.residual);
   MatrixXd normal = transposed_product(j, j);
   hold_at_bounds(fit.x, gradient, normal);
-  for (; damping < kMostDamping && !is_stopped(options); damping *= 4.0) {
+  for (; tries > 0 && damping < kMostDamping && !is_stopped(options); damping *= 4.0, --tries) {
     MatrixXd damped = normal;
     damped.diagonal() += damping * normal.diagonal();
     damped.diagonal().array() += 1e-12 * normal.diagonal().maxCoeff();
@@ -59,6 +64,9 @@ double improve(const Residuals& residuals, LeastSquaresFit& fit, double& damping
     const double cost = residual.squaredNorm();
     if (std::isfinite(cost) && cost < fit.cost) {
       const double gain = (fit.cost - cost) / fit.cost;
+      const VectorXd moved = x - fit.x;
+      const VectorXd missed = residual - fit.residual - j * moved;
+      j += missed * (moved / moved.squaredNorm()).transpose();
       fit = {x, residual, cost};
       damping = std::max(damping / 10.0, kLeastDamping);
       return gain;
@@ -105,8 +113,14 @@ LeastSquaresFit least_squares(const Residuals& residuals, const VectorXd& start,
   }
   double damping = kFirstDamping;
   for (int i = 0; i < options.iterations && !is_stopped(options); ++i) {
-    if (improve(residuals, fit, damping, options) < options.tolerance) {
+    MatrixXd j = jacobian(residuals, fit.x, fit.residual, options.difference);
+    double gain = improve(residuals, fit, j, damping, kAllTries, options);
+    if (gain < options.tolerance) {
       break;
+    }
+    // Steps by the same derivatives cost one residual each, new derivatives one a parameter.
+    for (int k = 0; k < kMostReuses && gain > kGoodGain; ++k) {
+      gain = improve(residuals, fit, j, damping, 1, options);
     }
   }
   return fit;

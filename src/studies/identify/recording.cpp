@@ -89,6 +89,8 @@ std::vector<double>& signal_of(Recording& recording, std::vector<double>& time,
       return axis.measured;
     case 2:
       return axis.volts;
+    case 5:
+      return axis.scale;
     default:
       return axis.force;
   }
@@ -204,8 +206,8 @@ Recording piece_of(const Rows& rows, const Evenly& piece, const std::filesystem:
   };
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     const AxisSignals& all = rows.signals.axis[axis];
-    recording.axis[axis] = {cut(all.command), cut(all.measured), cut(all.volts),
-                            all.volts_in,     cut(all.force),    all.force_in};
+    recording.axis[axis] = {cut(all.command), cut(all.measured), cut(all.volts), all.volts_in,
+                            cut(all.force),   all.force_in,      cut(all.scale)};
   }
   return recording;
 }

@@ -20,6 +20,7 @@ struct AxisSignals {
   Quantity volts_in = Quantity::kVoltage;  ///< or a speed
   std::vector<double> force;               ///< of the motor, [N] or [N m]; may be empty
   Quantity force_in = Quantity::kForce;    ///< or a torque
+  std::vector<double> scale{};             ///< position of the table by a scale [mm]; may be empty
 
   bool is_recorded() const noexcept { return !command.empty(); }
 };
@@ -33,6 +34,7 @@ struct Recording {
   std::array<AxisSignals, hal::kServoAxes> axis;
   std::size_t first_row = 0;                      ///< of a file that was cut where its time jumps
   std::array<bool, hal::kServoAxes> has_moved{};  ///< enough to be fitted
+  bool is_at_table = false;                       ///< measured by an encoder at the table
   std::vector<std::string> notes;                 ///< what looked odd and was accepted
 };
 

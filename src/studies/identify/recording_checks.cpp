@@ -65,11 +65,17 @@ double roughness(const std::vector<double>& positions) {
   return std::sqrt(sum / static_cast<double>(positions.size()));
 }
 
+/// Name of the unit of a length that is nearest. @param to_base  [mm]
+std::string_view length_unit(double to_base) {
+  return to_base > 30.0 ? "m" : to_base > 0.03 ? "mm" : "um";
+}
+
 /// The checks of one axis, with the names of its columns for the messages.
 struct AxisCheck {
   const Recording& recording;
   const AxisSignals& signals;
   const Column* columns;  // command, measured, volts
+  std::size_t first;      // signal of the command
 
   tl::unexpected<Error> refuse(std::string message) const {
     return about(recording.file, std::move(message));
@@ -87,10 +93,12 @@ struct AxisCheck {
     for (const double factor : {1000.0, -1000.0, 0.001, -0.001}) {
       if (std::abs(slope / factor - 1.0) < 0.3) {
         return refuse(
-            fmt::format("column {} moves {:.4g} times as far as column {}: their units "
-                        "differ; say which is in mm, um or m ({}:{})",
-                        columns[1].name, slope, columns[0].name, columns[1].name,
-                        std::abs(factor) > 1.0 ? "um" : "m"));
+            fmt::format("column {0} moves {1:.4g} times as far as column {2}: their units differ; "
+                        "is {0} in {4}, or {2} in {6}? then say --columns {3}={0}:{4} or "
+                        "{5}={2}:{6}",
+                        columns[1].name, slope, columns[0].name, kSignalNames[first + 1],
+                        length_unit(columns[1].to_base / std::abs(factor)), kSignalNames[first],
+                        length_unit(columns[0].to_base * std::abs(factor))));
       }
     }
     return {};
@@ -133,6 +141,22 @@ struct AxisCheck {
     if (!signals.force.empty() && !(range(signals.force) > 0.0)) {
       return refuse(fmt::format("column {} never changes, though the axis moves",
                                 columns[signals.force_in == Quantity::kForce ? 3 : 4].name));
+    }
+    return {};
+  }
+
+  /// A scale on the table goes where the encoder goes.
+  Expected<void> scale() const {
+    if (signals.scale.empty()) {
+      return {};
+    }
+    const Likeness like = likeness(signals.measured, signals.scale);
+    if (std::abs(like.correlation) < kLeastLikeness ||
+        std::abs(like.slope - 1.0) > kMostScaleError) {
+      return refuse(fmt::format(
+          "column {} is the table's position, but moves {:.4g} times as far as column {} "
+          "(correlation {:.2f}): is it the same axis, in this unit and direction?",
+          columns[5].name, like.slope, columns[1].name, like.correlation));
     }
     return {};
   }
@@ -182,12 +206,13 @@ Expected<void> check_recording(Recording& recording, const ColumnMap& columns,
                                             moved));
       continue;
     }
-    const AxisCheck check{recording, signals, names};
+    const AxisCheck check{recording, signals, names, axis == hal::kX ? kXCommand : kYCommand};
     TWIN_CHECK(check.units(limits));
     TWIN_CHECK(check.saturation());
     TWIN_CHECK(check.same_signal());
     TWIN_CHECK(check.volts());
     TWIN_CHECK(check.force());
+    TWIN_CHECK(check.scale());
     if (roughness(signals.command) > kRougher * roughness(signals.measured)) {
       recording.notes.push_back(fmt::format("{}: {} is much rougher than {}; are they swapped?",
                                             recording.file.filename().string(), names[0].name,
@@ -199,7 +224,8 @@ Expected<void> check_recording(Recording& recording, const ColumnMap& columns,
     return about(
         recording.file,
         farthest > 0.0
-            ? fmt::format("no axis moves by more than {:.3g} mm: is column {} in m ({}:m)?",
+            ? fmt::format("no axis moves by more than {:.3g} mm, which shows nothing of a machine; "
+                          "is column {} in m ({}:m)?",
                           farthest, column.name, column.name)
             : "no axis moves");
   }

@@ -40,8 +40,9 @@ constexpr std::array kUnits{Unit{"s", Quantity::kTime, 1.0},
                             Unit{"mN_m", Quantity::kTorque, 1e-3}};
 
 /// What a signal is measured in where no unit is named.
-constexpr std::array<Quantity, kSignalsOfAxis> kQuantities{
-    Quantity::kLength, Quantity::kLength, Quantity::kVoltage, Quantity::kForce, Quantity::kTorque};
+constexpr std::array<Quantity, kSignalsOfAxis> kQuantities{Quantity::kLength,  Quantity::kLength,
+                                                           Quantity::kVoltage, Quantity::kForce,
+                                                           Quantity::kTorque,  Quantity::kLength};
 
 Quantity quantity_of(std::size_t signal) {
   return signal == kTime ? Quantity::kTime : kQuantities[(signal - 1) % kSignalsOfAxis];

@@ -17,17 +17,19 @@ enum Signal : std::size_t {
   kXVolts,
   kXForce,
   kXTorque,
+  kXTable,
   kYCommand,
   kYMeasured,
   kYVolts,
   kYForce,
-  kYTorque
+  kYTorque,
+  kYTable
 };
-inline constexpr std::size_t kSignals = 11;
-inline constexpr std::size_t kSignalsOfAxis = 5;
+inline constexpr std::size_t kSignals = 13;
+inline constexpr std::size_t kSignalsOfAxis = 6;
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{
-    "t",     "x_cmd",  "x_meas", "x_V",     "x_force", "x_torque",
-    "y_cmd", "y_meas", "y_V",    "y_force", "y_torque"};
+    "t",     "x_cmd",  "x_meas", "x_V",     "x_force",  "x_torque", "x_table",
+    "y_cmd", "y_meas", "y_V",    "y_force", "y_torque", "y_table"};
 
 /// What the unit of a column measures.
 enum class Quantity {
@@ -58,7 +60,7 @@ ColumnMap trace_columns();
 ///
 /// Units are s, ms, us, and for a counter its period, as in t=cycle:2ms; m, mm, um; V, mV, and for
 /// drive commands mm/s, m/s, rpm, too; N, kN; N_m, mN_m. Signals that are not named keep the column
-/// of a trace.csv, which has no force and no torque.
+/// of a trace.csv, which has no force, torque and scale on the table.
 /// @returns kUsage error for an unknown signal, an empty column, or a unit of something else
 Expected<ColumnMap> parse_columns(std::string_view text);
 

@@ -36,9 +36,9 @@ void expect_file(const std::string& file_name) {
   TableParams params;
   expect_section(file, "table", table_settings(params), {"identified", "model", "x", "y"});
   expect_section(file, "table.x", axis_settings(params.axis[kX]),
-                 {"dac_bits", "drive_mode", "friction_law"});
+                 {"dac_bits", "drive_mode", "encoder_at", "friction_law"});
   expect_section(file, "table.y", axis_settings(params.axis[kY]),
-                 {"dac_bits", "drive_mode", "friction_law"});
+                 {"dac_bits", "drive_mode", "encoder_at", "friction_law"});
 }
 
 TEST(TableSettings, MachineFileHasEveryKey) { expect_file("xy_table.toml"); }

@@ -96,6 +96,42 @@ TEST(AxisModel, IsTheTableOfMujocoSampleForSampleAndToHalfAPercentInRms) {
   }
 }
 
+/// The square on a table whose screws give, of both simulations: largest difference of table places.
+double difference_with_screws(hal::mujoco::EncoderPlace place, double backlash) {
+  config::MachineFile file = machine_file();
+  file.table.model = TWIN_SOURCE_DIR "/mjcf/xy_table_compliant.xml";
+  for (hal::mujoco::AxisParams& axis : file.table.axis) {
+    axis.screw.stiffness = 20e3;
+    axis.screw.backlash = backlash;
+    axis.encoder.place = place;
+    // A nut that is shaken in its play makes much of the last digit.
+    axis.encoder.mm_per_count = 1e-6;
+    axis.drive.hum_amplitude = 0.0;
+  }
+  const auto points =
+      plan_set_points(test::text_of(TWIN_SOURCE_DIR "/nc_programs/square.nc"), file);
+  EXPECT_TRUE(points) << to_string(points.error());
+  const Rows mujoco = run_mujoco(file, *points);
+  double largest = 0.0;
+  for (const hal::Axis axis : {hal::kX, hal::kY}) {
+    const auto set_points = references(*points, static_cast<Eigen::Index>(axis));
+    const std::vector<AxisRow> rows = simulate(axis_setup(file, axis), set_points).rows;
+    largest = std::max(largest, largest_difference(rows, mujoco[axis]));
+    file.table.axis[axis].screw.backlash += 8e-3;
+    EXPECT_GT(largest_difference(simulate(axis_setup(file, axis), set_points).rows, rows), 2e-3)
+        << "play matters";
+  }
+  return largest;
+}
+
+TEST(AxisModel, WithAScrewThatGivesIsTheTableOfMujocoWhereverTheEncoderIs) {
+  for (const auto place : {hal::mujoco::EncoderPlace::kMotor, hal::mujoco::EncoderPlace::kTable}) {
+    // MuJoCo's rotors have 1e-10 kg m^2 more, of the body that a hinge needs.
+    EXPECT_LT(difference_with_screws(place, 0.0), 2e-4);
+    EXPECT_LT(difference_with_screws(place, 8e-3), 5e-4) << "with play";
+  }
+}
+
 TEST(AxisModel, HumAndEncoderPhaseChangeTheRun) {
   config::MachineFile file = machine_file();
   const auto points =

@@ -66,5 +66,15 @@ TEST(IdentificationReport, JsonHasNullForADeviationThatIsNotFinite) {
   EXPECT_TRUE(json["axis"]["y"].is_null());
 }
 
+// A value that the data do not show, but that the fit is worse without, was said to be the start.
+TEST(IdentificationReport, WhatIsKeptAsFittedIsNotSaidToHaveItsStartingValue) {
+  Identification result = example();
+  FittedParameter& mass = result.axis[hal::kX]->parameters.front();
+  EXPECT_THAT(to_table(result), HasSubstr("keep their starting values:\n  moving mass"));
+  mass.value = 17.0;
+  EXPECT_THAT(to_table(result), HasSubstr("would be worse:\n  moving mass"));
+  EXPECT_THAT(to_machine_file(result), HasSubstr("not shown, kept as fitted: shows only"));
+}
+
 }  // namespace identification_report_test
 }  // namespace twin::studies::identify
