@@ -17,9 +17,13 @@ constexpr double kLeastWay = 12.0;
 constexpr std::size_t kBegin = 3 * AxisObserver::kMemory;
 /// The same where the force is compared, whose filter is over sooner.
 constexpr std::size_t kForceBegin = 32;
+/// Periods for which the models have had the hum before a scale says anything: the counts
+/// of the encoder, from which it is found, know it to a part of a count, and a scale sees the rest.
+constexpr std::size_t kHumOfScale = 1000;
 // What a slide stands slower than, and for how long, until it counts as having stood: a smooth turn
 // is over sooner.
 constexpr double kStanding = 0.5;          // [mm/s]
+constexpr double kSlow = 2.0;              // below, friction may hold the slide [mm/s]
 constexpr std::size_t kStoodFor = 20;      // [periods]
 constexpr double kFastWay = 4.0;           // within kAround of a period, of a direction [counts]
 constexpr double kLeastWayOfAny = 0.5e-3;  // the same where counts are fine [mm]
@@ -76,11 +80,13 @@ void AxisObserver::judge_motion(double measured, Observation& seen) noexcept {
     stood_for_ = bank_ && std::abs(bank_->velocity()) < kStanding ? stood_for_ + 1 : 0;
     in_motion_ = since_motion_ < kMemory && stood_for_ < kStoodFor ? in_motion_ + 1 : 0;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
+      const std::size_t hum = channels_[i] == ChannelKind::kScale ? kHumOfScale : kBegin;
       seen.moves[i] = channels_[i] == ChannelKind::kForce
                           ? in_motion_ > kForceBegin
-                          : in_motion_ > kBegin && has_hum_for_ > kBegin;
+                          : in_motion_ > kBegin && has_hum_for_ > hum;
     }
     const double speed = bank_ ? bank_->velocity() : 0.0;
+    seen.is_slow = std::abs(speed) < kSlow;
     seen.heading = std::abs(speed) < kStanding ? 0.0 : speed > 0.0 ? 1.0 : -1.0;
     const double way = ago(kMemory - kAround) - ago(kMemory + kAround);
     const bool is_fast = std::abs(way) >= kFastWay * mm_per_count_;

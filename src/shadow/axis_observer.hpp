@@ -38,6 +38,7 @@ struct Observation {
   std::array<bool, kChannels> moves{};
   double direction = 0.0;  ///< of the motion kMemory periods ago; 0 where it was slow
   double heading = 0.0;    ///< direction of the model now; 0 where it is slow
+  bool is_slow = false;    ///< the model is so slow that friction may hold the axis
   double counts = 0.0;     ///< way of the measured position [counts]
 };
 

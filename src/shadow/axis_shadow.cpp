@@ -16,6 +16,7 @@ constexpr double kPatience = 1.2;          // of motion, until causes are named 
 constexpr double kPatienceForForce = 1.8;  // the same of a force, until a turn has come [s]
 constexpr double kLeastTime = 0.5;         // of motion, before any cause is named [s]
 constexpr int kLeastBlocks = 3;            // in a row that must name the same cause
+constexpr int kLeastTrialBlocks = 8;       // the same where causes are tried, every other block
 constexpr std::size_t kMostPoints = 2000;  // of the strip
 
 }  // namespace
@@ -114,11 +115,21 @@ bool AxisShadow::test(Channel& channel) {
   }
   Finding finding = judge(channel);
   finding.noticed = *channel.crossed;
+  if (channel.trials && finding.cause.evidence < channel.threshold) {
+    // The counts themselves do not bear out what their slopes seemed to say.
+    if (waited >= kPatience) {
+      channel.trials->restart();
+      channel.crossed.reset();
+      channel.same = 0;
+    }
+    return false;
+  }
   channel.same = finding.cause.cause == channel.favourite ? channel.same + 1 : 1;
   channel.favourite = finding.cause.cause;
   const bool is_jump = channel.favourite == Cause::kForce && finding.channel != ChannelKind::kForce;
+  const int least_blocks = channel.trials ? kLeastTrialBlocks : kLeastBlocks;
   const bool is_clear =
-      finding.or_else.empty() && !is_jump && channel.same >= kLeastBlocks && waited >= kLeastTime;
+      finding.or_else.empty() && !is_jump && channel.same >= least_blocks && waited >= kLeastTime;
   if (!is_clear && waited < (is_jump ? kPatienceForForce : kPatience)) {
     return false;
   }
@@ -136,11 +147,12 @@ bool AxisShadow::step(const AxisSample& sample, double time, std::int64_t line) 
   for (Channel& channel : channels_) {
     if (channel.trials && seen.moves[channel.number]) {
       channel.trials->add({channel.filter.healthy(seen.row[channel.number]), seen.heading,
-                           seen.counts, !channel.moved});
+                           seen.counts, !channel.moved, seen.is_slow});
     }
     channel.moved = seen.moves[channel.number];
-    const ChannelFilter::Output output = channel.filter.step(
-        seen.row[channel.number], seen.moves[channel.number], seen.direction, seen.heading);
+    const ChannelFilter::Output output =
+        channel.filter.step(seen.row[channel.number], seen.moves[channel.number], seen.direction,
+                            seen.heading, seen.is_slow);
     if (output.has_row && channel.evidence.add(output, channel.filter, seen.counts, now_)) {
       is_new = test(channel) || is_new;
     }

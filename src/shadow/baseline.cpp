@@ -34,6 +34,7 @@ Json json_of(const ChannelBaseline& channel) {
   json["coefficients"] = channel.coefficients;
   json["walk_um"] = channel.noise.walk;
   json["white_um"] = channel.noise.white;
+  json["slow_um"] = channel.noise.slow;
   json["mean"] = json_of(channel.mean);
   json["excess"] = json_of(channel.excess);
   json["scatter"] = json_of(channel.scatter);
@@ -137,6 +138,7 @@ ChannelBaseline read_channel(BaselineReader& reader, const Json& json) {
   channel.coefficients = reader.coefficients(reader.member(json, "coefficients"));
   channel.noise.walk = reader.number(json, "walk_um", 1e-9, 1e9);
   channel.noise.white = reader.number(json, "white_um", 1e-9, 1e9);
+  channel.noise.slow = reader.number(json, "slow_um", 0.0, 1e9);
   channel.mean = reader.parameters(reader.member(json, "mean"), -1e9);
   channel.excess = reader.parameters(reader.member(json, "excess"), 1.0);
   channel.scatter = reader.parameters(reader.member(json, "scatter"), 0.0);

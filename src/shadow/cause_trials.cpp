@@ -50,6 +50,13 @@ void CauseTrials::explain(const std::array<Hypothesis, kCauses>& by_evidence, co
   explained_to_ = history_.end();
 }
 
+void CauseTrials::restart() noexcept {
+  history_.release();
+  fit_.reset();
+  has_begun_ = false;
+  explained_to_ = 0;
+}
+
 std::array<Hypothesis, kCauses> CauseTrials::hypotheses() const noexcept {
   std::array<Hypothesis, kCauses> all{};
   for (std::size_t i = 0; i < kCauses; ++i) {
@@ -57,7 +64,7 @@ std::array<Hypothesis, kCauses> CauseTrials::hypotheses() const noexcept {
     Hypothesis& one = all[i];
     one.cause = static_cast<Cause>(i);
     one.since = since_;
-    one.change = i == kForceAt ? trial.force : trial.change;
+    one.change = i == kForceAt ? trial.beside : trial.change;
     one.evidence = trial.explained - (i == kForceAt || i == kEncoderAt ? 0.0 : kPriceOfCause);
     if (i == kEncoderAt) {
       one.deviation = one.change / std::sqrt(std::max(fit_.events(), 1.0));

@@ -20,6 +20,8 @@ class CauseTrials {
   /// @param by_evidence  what Evidence has of each cause  @param waited  since it was noticed [s]
   void explain(const std::array<Hypothesis, kCauses>& by_evidence, const Moment& now,
                double waited);
+  /// What was noticed was nothing: waits for what is noticed next. Real-time safe.
+  void restart() noexcept;
   /// Whether there are explanations.
   bool has_explained() const noexcept { return explained_to_ > 0; }
   /// What the trials say of each cause.

@@ -13,7 +13,7 @@ const double kPriceOfPeriod = 2.0 * std::log(static_cast<double>(Evidence::kBloc
 }  // namespace
 
 ChannelFilter::ChannelFilter(const ChannelBaseline& baseline, const ChannelFacts& facts)
-    : mean_(baseline.mean), variance_(baseline.variance) {
+    : mean_(baseline.mean), variance_(baseline.variance), slow_(baseline.noise.slow) {
   if (is_followed(baseline.kind)) {
     counts_.emplace(facts.count, baseline.noise, facts.hum_angle);
     if (facts.force_response.size() >= OnsetBank::kLasts) {
@@ -34,7 +34,7 @@ SignalRow ChannelFilter::healthy(SignalRow raw) const noexcept {
 }
 
 ChannelFilter::Output ChannelFilter::step(const SignalRow& raw, bool moves, double direction,
-                                          double heading) noexcept {
+                                          double heading, bool is_slow) noexcept {
   Output output;
   const SignalRow row = healthy(raw);
   if (counts_) {
@@ -42,8 +42,7 @@ ChannelFilter::Output ChannelFilter::step(const SignalRow& raw, bool moves, doub
       counts_->interrupt();
       return output;
     }
-    const CountFilter::Step step = counts_->step(row, heading);
-    output.log_likelihood = step.log_likelihood;
+    const CountFilter::Step step = counts_->step(row, heading, is_slow ? slow_ : 0.0);
     if (step.jump != 0.0) {
       output.jumps.counts = {step.gain - kPriceOfPeriod, std::abs(step.jump)};
     }

@@ -30,12 +30,13 @@ class ChannelFilter {
     bool has_row = false;
     WhiteRow row;
     JumpFinder::Found jumps;  ///< that were found in this period
-    double log_likelihood = 0.0;
   };
   /// One period. Real-time safe. @param moves  whether the axis is in motion
   /// @param direction  of the motion JumpFinder::kMemory - 1 periods ago; 0 where it was slow
   /// @param heading    the same of now
-  Output step(const SignalRow& raw, bool moves, double direction, double heading) noexcept;
+  /// @param is_slow    friction may hold the axis now
+  Output step(const SignalRow& raw, bool moves, double direction, double heading,
+              bool is_slow) noexcept;
 
   /// A residual less that of the healthy machine's parameters. Real-time safe.
   SignalRow healthy(SignalRow raw) const noexcept;
@@ -45,6 +46,7 @@ class ChannelFilter {
  private:
   PerParameter mean_;
   double variance_;
+  double slow_;
   std::optional<CountFilter> counts_;
   std::optional<OnsetBank> onsets_;
   std::optional<Whitener> whitener_;

@@ -19,6 +19,7 @@ struct WhiteRow {
 struct CountNoise {
   double walk = 0.05;   ///< standard deviation of what the model does not know, in a period [um]
   double white = 0.05;  ///< of noise in front of the encoder [um]
+  double slow = 0.0;    ///< walk besides, where friction may hold the axis or not [um]
 };
 
 /// Follows the distance of a machine from its model by what each count allows.
@@ -70,7 +71,7 @@ class CountFilter {
 
   /// One period of motion. Real-time safe. @param direction  of the motion; 0: slow
   /// @param loose  standard deviation of a further walk of the level in this period [um]
-  Step step(const SignalRow& raw, double direction, double loose = 0.0) noexcept;
+  Step step(const SignalRow& raw, double direction, double loose) noexcept;
   /// The axis stands or something else is unknown: the level is, from now on. Real-time safe.
   void interrupt() noexcept;
 

@@ -71,11 +71,12 @@ CountFit::Sums CountFit::pass(const CountHistory& history, std::size_t begin, st
       row.signature[0] = grows        ? shape * static_cast<double>(k - begin) * period_
                          : has_change ? shape - start
                                       : 0.0;
-      row.signature[1] = grows ? 0.0 : facts_.force_response[age];
-      row.residual -= trial.change * row.signature[0] + trial.force * row.signature[1];
+      row.signature[1] = grows ? shape - start : facts_.force_response[age];
+      row.residual -= trial.change * row.signature[0] + trial.beside * row.signature[1];
       loose = trial.is_none || grows ? 0.0 : onset_ * response_step_[age];
     }
-    const CountFilter::Step step = filter.step(row, 0.0, loose);
+    const CountFilter::Step step =
+        filter.step(row, 0.0, std::hypot(loose, period.is_slow ? baseline_.noise.slow : 0.0));
     sums.log_likelihood += k >= begin ? step.log_likelihood : 0.0;
     if (step.row != nullptr) {
       const WhiteRow& white = step.row->white;
@@ -117,7 +118,7 @@ CountFit::Trial CountFit::improved(const CountHistory& history, std::size_t begi
     for (int halving = 0; halving <= kHalvings && gained <= 0.0; ++halving) {
       Trial tried = trial;
       tried.change = std::clamp(trial.change + change, -limit, limit);
-      tried.force = trial.force + force;
+      tried.beside = trial.beside + force;
       const Sums there = pass(history, begin, cause, course, tried);
       gained = there.log_likelihood - here.log_likelihood;
       if (gained > 0.0) {
@@ -149,7 +150,8 @@ void CountFit::count(const CountHistory& history, std::size_t begin, double noth
     if (period.begins) {
       filter.interrupt();
     }
-    const CountFilter::Step step = filter.step(period.row, period.direction);
+    const CountFilter::Step step =
+        filter.step(period.row, period.direction, period.is_slow ? baseline_.noise.slow : 0.0);
     if (k < begin) {
       continue;
     }
@@ -199,7 +201,7 @@ void CountFit::explain(const CountHistory& history, std::size_t begin) {
       continue;
     }
     Trial trial;
-    trial.force = at_once_[i].force;
+    trial.beside = at_once_[i].beside;
     trial = improved(history, begin, kForceIndex, Course::kAtOnce, nothing, trial);
     alone = trial.explained > alone.explained ? trial : alone;
   }
@@ -212,7 +214,8 @@ CountFit::Trial CountFit::best(std::size_t cause) const noexcept {
   }
   Trial trial = growing_[cause];
   trial.explained -= kPriceOfGrowth;
-  trial.change *= seconds_;
+  trial.change = trial.beside + trial.change * seconds_;
+  trial.beside = 0.0;
   trial.information /= seconds_ * seconds_;
   return trial;
 }
@@ -235,9 +238,9 @@ std::size_t CountFit::refine(const CountHistory& history, std::size_t begin, std
       trial = here;
     }
   }
-  onset_ = std::abs(trial.force);
+  onset_ = std::abs(trial.beside);
   for (Trial& one : at_once_) {
-    one.force = trial.force;
+    one.beside = trial.beside;
   }
   return best;
 }

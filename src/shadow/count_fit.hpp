@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -21,6 +22,7 @@ class CountHistory {
     double direction = 0.0;
     double counts = 0.0;  ///< that passed by
     bool begins = false;  ///< a motion
+    bool is_slow = false;
   };
 
   /// Allocates.
@@ -29,6 +31,12 @@ class CountHistory {
   void add(const Period& period) noexcept;
   /// From now on the past is kept. Real-time safe.
   void keep() noexcept { is_kept_ = true; }
+  /// The past is not kept any more. Real-time safe.
+  void release() noexcept {
+    is_kept_ = false;
+    kept_ = 0;
+    size_ = std::min(size_, kBefore);
+  }
   /// Periods that were ever added; the last has this number less one.
   std::size_t end() const noexcept { return end_; }
   /// The first that is still there, and the one behind the last.
@@ -52,7 +60,7 @@ class CountHistory {
 /// counts bound the level from one side only. So what was noticed is explained by trial: each cause
 /// passes a filter of its own, once as a change at once with the force that it begins with, and once
 /// as one that grows,
-///   r_k - theta (s_k - s_0) - F s_o,k     or     r_k - theta' (t_k - t_0) s_k,
+///   r_k - theta (s_k - s_0) - F s_o,k   or   r_k - theta_0 (s_k - s_0) - theta' (t_k - t_0) s_k,
 /// and slopes and curvatures correct theta and F until the likelihood of the counts is largest. What a
 /// force does in its first periods is not known to a part of a count, so the level may walk there, by
 /// as much as the force moves it.
@@ -61,7 +69,7 @@ class CountFit {
   /// Twice the logarithm of the likelihood of a trial, and the change that it takes.
   struct Trial {
     double explained = 0.0;    ///< against no change
-    double force = 0.0;        ///< F [N]
+    double beside = 0.0;       ///< F [N], or theta at its begin
     double change = 0.0;       ///< theta, or theta' [1/s]
     double information = 0.0;  ///< of it, F being unknown
     bool is_none = false;      ///< nothing has changed
@@ -75,6 +83,11 @@ class CountFit {
   void explain(const CountHistory& history, std::size_t begin);
   /// Shifts `begin` to where a force explains most. @returns it
   std::size_t refine(const CountHistory& history, std::size_t begin, std::size_t range);
+  /// Forgets what trials have found.
+  void reset() noexcept {
+    at_once_ = growing_ = {};
+    onset_ = 0.0;
+  }
   /// The better one of the two trials of a cause, as a change at the last period.
   Trial best(std::size_t cause) const noexcept;
   double lost() const noexcept { return lost_; }      ///< counts, where they explain it

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/row_algebra.hpp"
 #include "core/stop_wish.hpp"
@@ -29,7 +28,6 @@ constexpr std::size_t kNoisePeriods = 40000;
 constexpr std::size_t kLeastNoisePeriods = 2000;
 /// Periods of motion after which precisions are compared.
 constexpr double kPeriodsOfPrecision = 1000.0;
-constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 /// Windows over which scores are taken, in blocks of Evidence.
 constexpr std::array<std::size_t, 3> kWindows{5, 20, 80};
 /// Motion below which the shortest windows are shorter, so that there are some [periods].
@@ -75,44 +73,49 @@ std::vector<double> covariance_of(const std::vector<ChannelSeries>& all, std::si
   return covariance;
 }
 
-/// Calls f(row) for the rows of the motion, of the first periods of each recording. No counts are
-/// taken for lost: the machine is healthy, and what the model does not have yet looks like that.
-/// @returns the logarithm of their likelihood by counts
+/// Calls f(row) for the rows of the motion. No counts are taken for lost: the machine is healthy, and
+/// what the model does not have yet looks like that.
 template <class F>
-double for_rows(const std::vector<ChannelSeries>& all, std::size_t periods,
-                const ChannelBaseline& baseline, const ChannelFacts& facts, F&& f) {
-  double sum = 0.0;
+void for_rows(const std::vector<ChannelSeries>& all, const ChannelBaseline& baseline,
+              const ChannelFacts& facts, F&& f) {
   for (const ChannelSeries& series : all) {
     ChannelFilter filter(baseline, facts);
-    for (std::size_t k = 0; k < std::min(periods, series.rows.size()); ++k) {
-      const ChannelFilter::Output output =
-          filter.step(series.rows[k], series.moves[k] != 0, series.direction[k], 0.0);
-      sum += output.log_likelihood;
+    for (std::size_t k = 0; k < series.rows.size(); ++k) {
+      const ChannelFilter::Output output = filter.step(
+          series.rows[k], series.moves[k] != 0, series.direction[k], 0.0, series.is_slow[k] != 0);
       if (output.has_row) {
         f(output.row);
       }
     }
   }
-  return sum;
 }
 
-/// Noise of the counts, by the likelihood of all of them: one of the two is made larger or smaller by
+/// Noise of the counts, by the likelihood of all of them: one of them is made larger or smaller by
 /// a factor in turn as long as that helps, and the factor smaller. It ends early once `stop` is set.
 void fit_noise(const std::vector<ChannelSeries>& all, const ChannelFacts& facts,
                const std::atomic<bool>* stop, ChannelBaseline& baseline) {
   const std::size_t periods = std::max(kNoisePeriods / all.size(), kLeastNoisePeriods);
-  ChannelFacts without_force = facts;
-  without_force.force_response.clear();
+  const ChannelFilter means(baseline, facts);
   const auto likelihood = [&](const CountNoise& noise) {
-    ChannelBaseline tried = baseline;
-    tried.noise = noise;
-    return for_rows(all, periods, tried, without_force, [](const WhiteRow&) {});
+    double sum = 0.0;
+    for (const ChannelSeries& series : all) {
+      CountFilter filter(facts.count, noise, facts.hum_angle, 0);
+      for (std::size_t k = 0; k < std::min(periods, series.rows.size()); ++k) {
+        if (series.moves[k] == 0) {
+          filter.interrupt();
+        } else {
+          const double loose = series.is_slow[k] != 0 ? noise.slow : 0.0;
+          sum += filter.step(means.healthy(series.rows[k]), 0.0, loose).log_likelihood;
+        }
+      }
+    }
+    return sum;
   };
   double best = likelihood(baseline.noise);
   for (double factor = 4.0; factor > 1.2; factor = std::sqrt(factor)) {
     for (bool has_moved = true; has_moved && check_wish(stop, kInterrupted);) {
       has_moved = false;
-      for (double CountNoise::*which : {&CountNoise::walk, &CountNoise::white}) {
+      for (double CountNoise::*which : {&CountNoise::walk, &CountNoise::white, &CountNoise::slow}) {
         for (const double by : {factor, 1.0 / factor}) {
           CountNoise noise = baseline.noise;
           noise.*which =
@@ -135,7 +138,7 @@ void fit_means(const std::vector<ChannelSeries>& all, const PerParameter& known,
                const ChannelFacts& facts, ChannelBaseline& baseline) {
   SquareMatrix<kParameters> normal{};
   PerParameter right{};
-  for_rows(all, kAll, baseline, facts, [&](const WhiteRow& row) {
+  for_rows(all, baseline, facts, [&](const WhiteRow& row) {
     for (std::size_t i = 0; i < kParameters; ++i) {
       right[i] += row.signature[i] * row.score;
       for (std::size_t j = 0; j <= i; ++j) {
@@ -161,7 +164,7 @@ void fit_variance(const std::vector<ChannelSeries>& all, const ChannelFacts& fac
                   ChannelBaseline& baseline) {
   double square = 0.0;
   double count = 0.0;
-  for_rows(all, kAll, baseline, facts, [&](const WhiteRow& row) {
+  for_rows(all, baseline, facts, [&](const WhiteRow& row) {
     square += row.score * row.score / (row.weight * row.weight);
     count += 1.0;
   });
@@ -232,7 +235,8 @@ void fit_spreads(const std::vector<ChannelSeries>& all, const ChannelFacts& fact
     Evidence evidence(baseline, series.rows.size() / Evidence::kBlock + 2);
     for (std::size_t k = 0; k < series.rows.size(); ++k) {
       const ChannelFilter::Output output =
-          filter.step(series.rows[k], series.moves[k] != 0, series.direction[k], series.heading[k]);
+          filter.step(series.rows[k], series.moves[k] != 0, series.direction[k], series.heading[k],
+                      series.is_slow[k] != 0);
       if (output.has_row) {
         evidence.add(output, filter, series.counts[k], {.time = static_cast<double>(k) * 1e-3});
       }
@@ -278,7 +282,7 @@ PerParameter precision_of(const std::vector<ChannelSeries>& all, const ChannelFa
                           const ChannelBaseline& baseline) {
   PerParameter information{};
   double rows = 0.0;
-  for_rows(all, kAll, baseline, facts, [&](const WhiteRow& row) {
+  for_rows(all, baseline, facts, [&](const WhiteRow& row) {
     rows += 1.0;
     for (std::size_t i = 0; i < kParameters; ++i) {
       information[i] += row.weight * row.signature[i] * row.signature[i];
@@ -312,7 +316,8 @@ Expected<ChannelBaseline> learn_channel(ChannelKind kind, const std::vector<Chan
   baseline.kind = kind;
   baseline.limit = limit;
   const std::size_t order = std::min(kLongestFilter, moving / kPeriodsPerCoefficient);
-  baseline.noise = {kFirstNoise * facts.count, kFirstNoise * facts.count};
+  baseline.noise = {kFirstNoise * facts.count, kFirstNoise * facts.count,
+                    kFirstNoise * facts.count};
   for (int round = 0; round < (is_followed(kind) ? kRoundsOfCounts : kRounds); ++round) {
     TWIN_CHECK(check_wish(stop, kInterrupted));
     if (is_followed(kind)) {

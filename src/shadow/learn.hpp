@@ -18,6 +18,7 @@ struct ChannelSeries {
   std::vector<char> moves;        ///< whether the axis is in motion there
   std::vector<double> direction;  ///< as Observation has it
   std::vector<double> heading;    ///< the same
+  std::vector<char> is_slow;      ///< the same
 };
 
 /// Finds what the healthy machine makes of a channel.

@@ -26,6 +26,7 @@ std::vector<ChannelSeries> series_of(AxisObserver observer, const Track& track, 
       series[i].moves.push_back(seen.moves[i] ? 1 : 0);
       series[i].direction.push_back(seen.direction);
       series[i].heading.push_back(seen.heading);
+      series[i].is_slow.push_back(seen.is_slow ? 1 : 0);
     }
   }
   return series;

@@ -35,7 +35,7 @@ TEST(CountFilter, SlopesHaveTheVarianceThatTheCurvaturesSayAndFarLessThanThatOfR
     SignalRow row;
     row.residual = residuals[k];
     row.signature[0] = std::sin(0.05 * static_cast<double>(k));
-    if (const auto step = filter.step(row, 1.0); step.row != nullptr) {
+    if (const auto step = filter.step(row, 1.0, 0.0); step.row != nullptr) {
       const WhiteRow& white = step.row->white;
       slope += white.score * white.signature[0];
       square += white.score * white.score * white.signature[0] * white.signature[0];
@@ -57,7 +57,7 @@ TEST(CountFilter, ResidualsFarFromWhatIsExpectedKeepItFinite) {
     SignalRow row;
     row.residual = std::pow(10.0, exponent(random)) * (k % 3 - 1);
     row.signature[0] = row.residual;
-    const auto step = filter.step(row, 1.0);
+    const auto step = filter.step(row, 1.0, 0.0);
     ASSERT_TRUE(std::isfinite(step.log_likelihood)) << k;
     ASSERT_TRUE(step.row == nullptr || std::isfinite(step.row->white.score)) << k;
     ASSERT_TRUE(step.row == nullptr || std::isfinite(step.row->white.signature[0])) << k;
@@ -73,7 +73,7 @@ TEST(CountFilter, ALostCountIsFoundOnceAndOnlyAgainstTheMotion) {
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       SignalRow row;
       row.residual = residuals[k] - (k >= 900 ? 10.0 : 0.0) - (k >= 2000 ? 20.0 : 0.0);
-      lost -= filter.step(row, direction).jump;
+      lost -= filter.step(row, direction, 0.0).jump;
     }
     EXPECT_EQ(lost, direction > 0.0 ? 3.0 : 0.0);
   }

@@ -38,9 +38,11 @@ void show(const Baseline& baseline, const config::MachineFile& machine) {
   fmt::print("{}", to_text(baseline, machine));
   for (std::size_t axis = 0; axis < hal::kServoAxes; ++axis) {
     for (const ChannelBaseline& c : baseline.axis[axis]) {
-      fmt::print("{} {}: lost counts {:.2f}, force {:.2f}; walk {:.3g} um, white {:.3g} um\n",
-                 axis == 0 ? "x" : "y", name_of(c.kind), c.step_excess, c.force_excess,
-                 c.noise.walk, c.noise.white);
+      fmt::print(
+          "{} {}: lost counts {:.2f}, force {:.2f}; walk {:.3g} um, white {:.3g} um, slow {:.3g} "
+          "um\n",
+          axis == 0 ? "x" : "y", name_of(c.kind), c.step_excess, c.force_excess, c.noise.walk,
+          c.noise.white, c.noise.slow);
       for (std::size_t i = 0; i < kParameters; ++i) {
         fmt::print("  {:12} mean {:10.3g}  excess {:5.2f}  scatter {:.3g}\n",
                    name_of(static_cast<Cause>(i)), c.mean[i], c.excess[i], c.scatter[i]);

@@ -19,6 +19,8 @@ constexpr double kSlowest = 1.0 / 64.0;  // of the largest feedrate, the slowest
 constexpr double kStepBack = 0.93;       // of a feedrate that does not hold
 constexpr double kShortest = 5.0;        // stretch [mm]
 constexpr double kMostChange = 1.35;     // of a feedrate in a round
+constexpr double kAim = 0.98;            // of the tolerance that a stretch aims at
+constexpr double kBelowFailed = 0.99;    // of a feedrate that was too fast for its stretch
 constexpr double kSharpness = 0.7;       // exponent of room in the change of a feedrate
 
 /// A plan and the errors of possible machines on it.
@@ -27,6 +29,13 @@ struct Trial {
   PossibleErrors errors;
   double time = 0.0;   // [s]
   double error = 0.0;  // that the share of machines stays within [mm]
+};
+
+/// Feedrates of stretches.
+struct Schedule {
+  std::vector<std::size_t> stretch;  // of each block
+  std::vector<double> feeds;         // of each stretch [mm/s]
+  std::vector<double> most;          // that they may be: less than what was too fast [mm/s]
 };
 
 /// The search for one program.
@@ -50,7 +59,9 @@ class Search {
   /// The fastest trial of plans that get slower with a factor from 1 down; none keeps it: nothing.
   template <class Make>
   Expected<std::optional<std::pair<double, Trial>>> fastest_of(const Make& make);
-  void change(std::span<const double> errors, std::vector<double>& feeds) const;
+  void change(std::span<const double> errors, Schedule& schedule) const;
+  Expected<std::optional<Trial>> tried_schedule(const std::vector<gcode::Block>& blocks,
+                                                const Schedule& schedule, Fastest& found);
   Expected<std::string> text_of(std::span<const gcode::Block> blocks,
                                 std::span<const std::size_t> stretch,
                                 std::span<const double> feeds) const;
@@ -68,8 +79,9 @@ class Search {
   const config::MachineFile& machine_;
   const FastestOptions& options_;
   const Uncertainty& uncertainty_;
-  Question searching_;  // of the machines of the search
-  Question holding_;    // of those that it has not seen
+  Question searching_;                   // of the machines of the search
+  Question holding_;                     // of those that it has not seen
+  std::optional<Trial> schedule_trial_;  // the fastest that keeps the tolerance
 };
 
 Expected<Trial> Search::tried(const gcode::ProgramText& program, const config::MachineFile& machine,
@@ -186,14 +198,19 @@ std::vector<double> errors_of_stretches(const PossibleErrors& errors,
   return result;
 }
 
-/// Raises feedrates of stretches whose error leaves room, and lowers the others.
-void Search::change(std::span<const double> errors, std::vector<double>& feeds) const {
-  for (std::size_t s = 0; s < feeds.size(); ++s) {
+/// Raises feedrates of stretches whose error leaves room, and lowers the others, for good.
+void Search::change(std::span<const double> errors, Schedule& schedule) const {
+  const double aim = kAim * options_.tolerance;
+  for (std::size_t s = 0; s < schedule.feeds.size(); ++s) {
     // An error is made before the place where it shows, so the stretch before shares it.
-    const double here = std::max(errors[s], s + 1 < feeds.size() ? 0.9 * errors[s + 1] : 0.0);
-    const double room = std::pow(options_.tolerance / std::max(here, 1e-6), kSharpness);
-    feeds[s] = std::clamp(feeds[s] * std::clamp(room, 1.0 / kMostChange, kMostChange),
-                          kSlowest * machine_.limits.feedrate, machine_.limits.feedrate);
+    const double here = std::max(errors[s], s + 1 < errors.size() ? 0.9 * errors[s + 1] : 0.0);
+    const double room = std::pow(aim / std::max(here, 1e-6), kSharpness);
+    double& feed = schedule.feeds[s];
+    if (room < 1.0) {
+      schedule.most[s] = std::min(schedule.most[s], kBelowFailed * feed);
+    }
+    feed = std::clamp(feed * std::clamp(room, 1.0 / kMostChange, kMostChange),
+                      kSlowest * machine_.limits.feedrate, schedule.most[s]);
   }
 }
 
@@ -223,38 +240,59 @@ std::vector<FeedStretch> schedule_of(std::span<const gcode::Block> blocks,
   return schedule;
 }
 
+/// Tries a schedule. @returns its trial; null: it cannot be written
+Expected<std::optional<Trial>> Search::tried_schedule(const std::vector<gcode::Block>& blocks,
+                                                      const Schedule& schedule, Fastest& found) {
+  auto text = text_of(blocks, schedule.stretch, schedule.feeds);
+  if (!text) {
+    found.why_no_stretches = to_string(text.error());
+    return std::optional<Trial>();
+  }
+  TWIN_TRY(Trial trial,
+           tried(gcode::ProgramText::from_text(*text, program_.file()), machine_, {}, nullptr));
+  const bool is_faster = keeps(trial) && (!schedule_trial_ || trial.time < schedule_trial_->time);
+  if (is_faster) {
+    TWIN_TRY(const bool does, holds(trial));
+    if (does) {
+      found.program = *std::move(text);
+      found.schedule = schedule_of(blocks, schedule.stretch, schedule.feeds);
+      schedule_trial_ = trial;
+    }
+  }
+  return std::optional<Trial>(std::move(trial));
+}
+
 Expected<void> Search::find_stretches(const Trial& whole, double feedrate, Fastest& found) {
   const std::vector<gcode::Block>& blocks = whole.path.blocks();
-  const std::vector<std::size_t> stretch = stretches_of(blocks);
-  std::vector<double> feeds(stretch.empty() ? 0 : stretch.back() + 1, feedrate);
-  std::optional<Trial> best;
-  std::optional<Trial> last;
+  Schedule schedule{.stretch = stretches_of(blocks), .feeds = {}, .most = {}};
+  const std::size_t count = schedule.stretch.empty() ? 0 : schedule.stretch.back() + 1;
+  schedule.feeds.assign(count, feedrate);
+  schedule.most.assign(count, machine_.limits.feedrate);
+  std::optional<Trial> last(whole);
   for (int round = 0; round < options_.rounds; ++round) {
-    tell(fmt::format("feedrates of {} stretches, round {} of {}", feeds.size(), round + 1,
+    tell(fmt::format("feedrates of {} stretches, round {} of {}", count, round + 1,
                      options_.rounds));
-    change(
-        errors_of_stretches((last ? *last : whole).errors, stretch, 0.5 * (1.0 + options_.share)),
-        feeds);
-    auto text = text_of(blocks, stretch, feeds);
-    if (!text) {
-      found.why_no_stretches = to_string(text.error());
+    change(errors_of_stretches(last->errors, schedule.stretch, 0.5 * (1.0 + options_.share)),
+           schedule);
+    TWIN_TRY(last, tried_schedule(blocks, schedule, found));
+    if (!last) {
       return {};
     }
-    TWIN_TRY(Trial trial,
-             tried(gcode::ProgramText::from_text(*text, program_.file()), machine_, {}, nullptr));
-    bool is_better = keeps(trial) && (!best || trial.time < best->time);
-    if (is_better) {
-      TWIN_TRY(is_better, holds(trial));
-    }
-    if (is_better) {
-      found.program = *std::move(text);
-      found.schedule = schedule_of(blocks, stretch, feeds);
-      best = trial;
-    }
-    last = std::move(trial);
   }
-  if (best) {
-    TWIN_TRY(found.stretches, verified(*best, 0.0));
+  // Between one feedrate for all, which keeps the tolerance, and what was found in the end.
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < options_.halvings; ++i) {
+    const double share = 0.5 * (low + high);
+    Schedule between = schedule;
+    for (double& feed : between.feeds) {
+      feed = feedrate * std::pow(feed / feedrate, share);
+    }
+    TWIN_TRY(last, tried_schedule(blocks, between, found));
+    (keeps(*last) ? low : high) = share;
+  }
+  if (schedule_trial_) {
+    TWIN_TRY(found.stretches, verified(*schedule_trial_, 0.0));
   }
   return {};
 }

@@ -59,8 +59,9 @@ struct Fastest {
 /// A feedrate keeps the tolerance if the largest contour error of cutting motion is within it on a
 /// share of possible machines (Uncertainty). One feedrate for the whole program is found by halving
 /// intervals. From there the feedrate of each stretch of at least 5 mm goes up where the error of
-/// the stretch leaves room, and down where it does not; the fastest of these that keeps the
-/// tolerance is the result. What the machines of the search keep must hold on as many others, or the
+/// the stretch leaves room, and down for good where it does not; then what lies between the last
+/// schedule and the one feedrate is tried. The fastest of these that keeps the tolerance is the
+/// result. What the machines of the search keep must hold on as many others, or the
 /// next slower one is taken; results are then verified on a third set of machines.
 Expected<Fastest> fastest(const gcode::ProgramText& program, const config::MachineFile& machine,
                           const FastestOptions& options);
