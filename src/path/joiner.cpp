@@ -40,8 +40,6 @@ constexpr double kBumpShareAlong = 0.34;
 constexpr double kLeftShare = 0.05;  // the same of what is left there to the motion along the path
 constexpr double kLeftShareAlong = 0.4;
 
-constexpr double kAnyFeedrate = std::numeric_limits<double>::infinity();
-
 constexpr double kShortestBody = 1e-4;  // between two bumps, unless there is none at all [mm]
 
 /// Spans of a run that wait for its end. The most bound the memory; the fewest let a bump end
@@ -183,14 +181,15 @@ void Joiner::join_to_last() {
   const double width = has_jump && can_pass ? bump_width(bump) : 0.0;
   const bool has_room = width >= 2.0 * geometry::kShortestPiece;
   const auto lost_without_passage = [&](double feedrate) {
-    const Losses lost = losses_at(bump, width, end, begin, feedrate);
-    return has_room ? std::min(lost.in_bump, lost.by_stop) : lost.by_stop;
+    const Losses lost = losses_at(bump, width, end, begin);
+    return (has_room ? std::min(lost.in_bump, lost.by_stop) : lost.by_stop) + lost.run -
+           lost.room / feedrate;
   };
   if (bump.turn.norm() > kNoJump && join_by_passage(width, lost_without_passage)) {
     return;
   }
   const auto is_sharp = [&] {
-    const Losses lost = losses_at(bump, width, end, begin, kAnyFeedrate);
+    const Losses lost = losses_at(bump, width, end, begin);
     if (!has_room || lost.by_stop < lost.in_bump) {
       return true;
     }
@@ -210,7 +209,7 @@ void Joiner::join_to_last() {
 
 /// Passes the corner between two lines by a motion in time.
 /// @param bump_width  half width of the bump that could be there [mm]
-/// @param other       time that the corner loses without a passage, at a feedrate
+/// @param other       time that the corner loses without a passage, beside a run at a feedrate
 /// @returns false, with nothing done, where there is no better one than the bump
 bool Joiner::join_by_passage(double bump_width, const std::function<double(double)>& other) {
   if (corners_ != CornerKind::kPassage ||
@@ -259,9 +258,8 @@ double Joiner::bump_width(const geometry::CornerBump& bump) const {
 
 /// Times that the corner loses in a bump, with what the jerk of axes allows in it, and with a stop at
 /// the corner itself. A bump that no such jerk limits counts as one that loses nothing.
-/// @param most  feedrate, at most
 Joiner::Losses Joiner::losses_at(const geometry::CornerBump& bump, double width,
-                                 const PathPoint& end, const PathPoint& begin, double most) const {
+                                 const PathPoint& end, const PathPoint& begin) const {
   const Vec3 along = 0.5 * (end.tangent + begin.tangent).cwiseAbs();
   double v = std::numeric_limits<double>::infinity();
   double left = v;
@@ -292,9 +290,11 @@ Joiner::Losses Joiner::losses_at(const geometry::CornerBump& bump, double width,
       }
     }
     const double room = 0.5 * (element.end - element.begin);
-    const double feedrate = feedrate_within(room, std::min(element.feedrate, most), jerk);
+    const double feedrate = feedrate_within(room, element.feedrate, jerk);
     lost.in_bump += best_passage({width, v, std::min(left, jerk)}, feedrate, jerk).loss;
     lost.by_stop += stop_loss(feedrate, jerk);
+    lost.run += room / feedrate;
+    lost.room += room;
   };
   add_side(*before_, end.tangent);
   add_side(*under_way_, begin.tangent);

@@ -84,10 +84,13 @@ class Joiner : public geometry::RunSink {
     geometry::SlidingVector<Span> spans;
   };
 
-  /// Times that a corner loses [s].
+  /// Times that a corner loses [s], beside a run of the nearer halves of both elements at the feedrates
+  /// that are reached there.
   struct Losses {
     double in_bump = 0.0;
     double by_stop = 0.0;
+    double run = 0.0;   ///< time of that run [s]
+    double room = 0.0;  ///< its length [mm]
   };
 
   void begin_element(Kind kind, double begin, double end);
@@ -97,7 +100,7 @@ class Joiner : public geometry::RunSink {
   bool join_by_passage(double bump_width, const std::function<double(double)>& other);
   double bump_width(const geometry::CornerBump& bump) const;
   Losses losses_at(const geometry::CornerBump& bump, double width, const PathPoint& end,
-                   const PathPoint& begin, double most) const;
+                   const PathPoint& begin) const;
   bool is_judged_sharp(double width, const PathPoint& end, const PathPoint& begin);
   void make_bump(const geometry::CornerBump& bump, double width);
   void emit_bump(const geometry::CornerBump& bump, double width);

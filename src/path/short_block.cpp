@@ -35,4 +35,19 @@ double bi_chord_error(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
   return half * half / (radius + std::sqrt(std::max(radius * radius - half * half, 0.0)));
 }
 
+bool is_bi_chord_within(const Vec3& p0, const Vec3& p1, const Vec3& p2, double tolerance) {
+  const Vec3 a = p1 - p0;
+  const Vec3 b = p2 - p1;
+  // With R = |a| |b| |c| / (2 |a x b|) and h = max(|a|, |b|) / 2 the error is at most h^2 / R.
+  const double square_a = a.squaredNorm();
+  const double square_b = b.squaredNorm();
+  const double square_h = 0.25 * std::max(square_a, square_b);
+  const double most = 0.999 * tolerance;
+  if (a.dot(b) > 0.0 && 4.0 * square_h * square_h * a.cross(b).squaredNorm() <=
+                            most * most * square_a * square_b * (p2 - p0).squaredNorm()) {
+    return true;
+  }
+  return bi_chord_error(p0, p1, p2) <= tolerance;
+}
+
 }  // namespace twin::path

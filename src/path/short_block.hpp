@@ -23,4 +23,7 @@ double corner_angle(const Vec3& p0, const Vec3& p1, const Vec3& p2);
 /// 90 deg or more.
 double bi_chord_error(const Vec3& p0, const Vec3& p1, const Vec3& p2);
 
+/// Whether bi_chord_error() is at most `tolerance` [mm]. Where it is plainly less, no root is taken.
+bool is_bi_chord_within(const Vec3& p0, const Vec3& p1, const Vec3& p2, double tolerance);
+
 }  // namespace twin::path

@@ -47,7 +47,7 @@ double SmoothBuilder::run_tolerance(double programmed) const {
 bool SmoothBuilder::continues_run(const LineBlock& line) const {
   return !run_.is_empty() && line.tolerance == last_.tolerance && last_.can_be_short &&
          line.can_be_short &&
-         bi_chord_error(last_.start, line.start, line.end) <= run_tolerance(line.tolerance);
+         is_bi_chord_within(last_.start, line.start, line.end, run_tolerance(line.tolerance));
 }
 
 BlockDemand SmoothBuilder::demand_of(const gcode::Block& block, double length,
@@ -75,7 +75,7 @@ bool SmoothBuilder::merge_into_line(const gcode::Block& block, const BlockDemand
   if (!has_line_ || block.tolerance != line_.tolerance) {
     return false;
   }
-  const double away = (block.end - line_.end).norm();
+  const double away = block.start == line_.end ? demand.length : (block.end - line_.end).norm();
   if (line_.length > speck && away > speck) {
     return false;
   }
@@ -108,10 +108,11 @@ void SmoothBuilder::add_line(const gcode::Block& block, std::int64_t number) {
   end_line(start != line_.end ? Following::kOther : Following::kConnected);
   line_.start = start;
   line_.end = line_.last = block.end;
-  line_.length = (line_.end - line_.start).norm();
+  const bool is_as_programmed = start == block.start;
+  line_.length = is_as_programmed ? programmed : (line_.end - line_.start).norm();
   line_.tolerance = block.tolerance;
   line_.can_be_short = is_short(block, line_.length);
-  demand.deviation = (block.start - start).norm();
+  demand.deviation = is_as_programmed ? 0.0 : (block.start - start).norm();
   line_.demand = demand;
   line_.before.clear();
   line_.left_out.clear();

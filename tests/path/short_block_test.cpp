@@ -86,5 +86,22 @@ TEST(BiChordError, IsTheSameInBothDirections) {
   EXPECT_DOUBLE_EQ(bi_chord_error(a, b, c), bi_chord_error(c, b, a));
 }
 
+TEST(BiChordError, IsWithinAToleranceWhereItIsAtMostThat) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<> any(-1.0, 1.0);
+  int within = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p0(any(random), any(random), any(random));
+    const Vec3 p1 = p0 + Vec3(1.0, 0.3 * any(random), 0.0);
+    const Vec3 p2 = p1 + std::pow(10.0, any(random)) * Vec3(1.0, any(random), 0.1 * any(random));
+    const double error = bi_chord_error(p0, p1, p2);
+    const double tolerance =
+        error * (1.0 + std::pow(10.0, -4.0 + 4.0 * any(random)) * (i % 2 == 0 ? 1.0 : -0.5));
+    ASSERT_EQ(is_bi_chord_within(p0, p1, p2, tolerance), error <= tolerance) << i;
+    within += error <= tolerance ? 1 : 0;
+  }
+  EXPECT_GT(within, 5000);
+}
+
 }  // namespace short_block_test
 }  // namespace twin::path

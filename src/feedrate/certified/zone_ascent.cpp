@@ -23,14 +23,15 @@ constexpr int kMostWaysOut = 100;
 /// Time at which a phase that begins with a > 0 and -J reaches a distance, within its duration.
 ///
 /// From the right Newton's method falls to the root, since v rises; the first guess, with a alone, is
-/// on the left, and its first step leads to the right.
+/// on the left, and its first step leads to the right. A step of a share x of t leaves x^2 / 2 of it.
 double time_along(const Phase& phase, double distance) noexcept {
   double t = 2.0 * distance / (phase.v + std::sqrt(phase.v * phase.v + 2.0 * phase.a * distance));
   for (int i = 0; i < 20; ++i) {
-    const PathMotion at = motion_at(phase, t);
-    const double step = (at.s - phase.s - distance) / at.v;
+    // Without the place of the phase, whose rounding would never let the steps get small.
+    const double way = t * (phase.v + t * (0.5 * phase.a + t * phase.j / 6.0));
+    const double step = (way - distance) / (phase.v + t * (phase.a + 0.5 * t * phase.j));
     t = std::min(t - step, phase.duration);
-    if (std::abs(step) <= 1e-14 * t) {
+    if (std::abs(step) <= 1e-8 * t) {
       break;
     }
   }

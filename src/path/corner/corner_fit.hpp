@@ -45,7 +45,8 @@ inline constexpr double kMostOfLegBesidePassage = 0.2;
 ///
 /// @param curve      half width of the curve that could round the corner instead; 0: none [mm]
 /// @param tolerance  [mm]
-/// @param other      with jerk_of = path: time that the corner loses without a passage, at a feedrate
+/// @param other      with jerk_of = path: time that the corner loses without a passage, beside a run of both
+///                   legs at a feedrate
 /// @returns nothing where there is no passage, or the curve loses less time under the same limits
 std::optional<CornerMotion> fit_passage(const Vec3& corner, const CornerLeg& before,
                                         const CornerLeg& after, double tolerance, double curve,
