@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "gcode/block.hpp"
