@@ -15,10 +15,11 @@ constexpr double kDoubtOfHeld = 0.3;        // relative, of a held value
 constexpr double kNaturalLostMotion = 1.0;  // so little is as good as none [um]
 constexpr double kCreep = 0.02;             // of the peak velocity, within which sgn v turns
 constexpr std::array kOtherStiffness{0.1, 0.4, 2.5};
-constexpr double kCloseFit = 1.1;  // of what rounding makes
-constexpr double kSoftest = 1e3;   // that a search begins at [N/mm]
-constexpr double kStiffest = 1e6;  // [N/mm]
-constexpr double kMostPlay = 0.2;  // [mm]
+constexpr double kStiffShare = 0.5;  // of the stiffest there is in a search
+constexpr double kCloseFit = 1.1;    // of what rounding makes
+constexpr double kSoftest = 1e3;     // that a search begins at [N/mm]
+constexpr double kStiffest = 1e6;    // [N/mm]
+constexpr double kMostPlay = 0.2;    // [mm]
 
 /// 2 Fc / k + play: what the table lags behind the screw by, one way less the other [um].
 double lost_motion(const config::MachineFile& machine, hal::Axis axis) {
@@ -127,6 +128,14 @@ bool AxisFitter::is_screw_fitted() const {
 /// What a screw adds is small: where more is left than rounding makes, none of it is certain.
 void AxisFitter::judge_screw() {
   fit_.scale_rms = problem_.scale_rms(current_);
+  for (Searched& parameter : searched_) {
+    if (parameter.result.key.ends_with("screw_stiffness_N_per_um") &&
+        parameter.result.value > kStiffShare * parameter.candidate.parameter.max &&
+        parameter.result.verdict == Verdict::kIdentified) {
+      parameter.result.verdict = Verdict::kUncertain;
+      parameter.result.why = "as stiff as the physics step lets a search go, or stiffer";
+    }
+  }
   if (is_screw_fitted()) {
     return;
   }
