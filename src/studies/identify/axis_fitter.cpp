@@ -135,6 +135,8 @@ void AxisFitter::polish(int iterations, int least_rank, double tolerance) {
   options.iterations = iterations;
   options.tolerance = has_volts() ? tolerance : 0.1 * tolerance;  // without, the valleys are longer
   options.stop = options_.stop;
+  // Where the model lacks something, the way to the best is not straight.
+  options.reuses = rms_of(current_) <= kLackOfFit * fit_.rounding_rms ? options.reuses : 0;
   const LeastSquaresFit fit = least_squares(
       [&](const Eigen::VectorXd& u) { return residuals(set, u); },
       Eigen::Map<const Eigen::VectorXd>(units.data(), static_cast<Eigen::Index>(units.size())),
@@ -327,6 +329,7 @@ AxisFit AxisFitter::run() {
   }
   join_held_out();
   hold_friction_where_unfit();
+  retry_screw();
   judge_and_hold();
   estimate_gains();
   return finish();
@@ -347,7 +350,7 @@ AxisFit AxisFitter::finish() {
   doubt_hum_without_amplitude();
   widen_by_mass();
   judge_lack_of_fit();
-  judge_scales();
+  judge_screw();
   doubt_by_lacking_features();
   if (!has_volts()) {
     doubt_gains_without_volts();

@@ -55,7 +55,9 @@ class AxisFitter {
   void complete_torque_mode();
   AxisFit finish_torque_mode();
   void begin_screw();
-  void judge_scales();
+  void retry_screw();
+  bool is_screw_fitted() const;
+  void judge_screw();
   Eigen::VectorXd lost_motion_by(const Indices& indices) const;
   double lost_motion_deviation(const Indices& indices, const Indices& held);
   void derive_lost_motion();

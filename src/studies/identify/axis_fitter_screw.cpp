@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,9 +14,12 @@ constexpr double kScrewDifference = 1e-4;   // of the unit cube
 constexpr double kDoubtOfHeld = 0.3;        // relative, of a held value
 constexpr double kNaturalLostMotion = 1.0;  // so little is as good as none [um]
 constexpr double kCreep = 0.02;             // of the peak velocity, within which sgn v turns
-constexpr double kSoftest = 1e3;            // that a search begins at [N/mm]
-constexpr double kStiffest = 1e6;           // [N/mm]
-constexpr double kMostPlay = 0.2;           // [mm]
+constexpr std::array kOtherStiffness{0.1, 0.4, 2.5};
+constexpr double kStiffShare = 0.5;  // of the stiffest there is in a search
+constexpr double kCloseFit = 1.1;    // of what rounding makes
+constexpr double kSoftest = 1e3;     // that a search begins at [N/mm]
+constexpr double kStiffest = 1e6;    // [N/mm]
+constexpr double kMostPlay = 0.2;    // [mm]
 
 /// 2 Fc / k + play: what the table lags behind the screw by, one way less the other [um].
 double lost_motion(const config::MachineFile& machine, hal::Axis axis) {
@@ -37,8 +39,9 @@ Eigen::Vector4d shares_of(const AxisRecord& record, double period) {
   for (Eigen::Index k = 0; k < rows; ++k) {
     const auto row = static_cast<std::size_t>(k);
     const motion::Reference& r = record.command[row];
-    causes.row(k) << record.measured[row], r.velocity, r.acceleration,
-        std::tanh(r.velocity / std::max(kCreep * peak, 1e-9));
+    const double velocity = measured_velocity(record, row, period);
+    causes.row(k) << record.measured[row], velocity, r.acceleration,
+        std::tanh(velocity / std::max(kCreep * peak, 1e-9));
     apart[k] = record.scale[row] - record.measured[row];
   }
   const std::size_t first = settling_rows(record, period);
@@ -68,6 +71,28 @@ void AxisFitter::begin_screw() {
   axis.screw.backlash = std::clamp(-2.0 * shares[3] - stretch, 0.0, kMostPlay);
 }
 
+/// Begins again with a softer and a stiffer screw of the same lost motion, and keeps what fits best:
+/// a stiff screw is one whose stiffness nothing shows, so that a search does not come back from it.
+void AxisFitter::retry_screw() {
+  if (!problem_.shows_table() || !is_free("screw_stiffness_N_per_um") ||
+      !is_free("screw_backlash_um")) {
+    return;
+  }
+  for (const double factor : kOtherStiffness) {
+    const config::MachineFile best = current_;
+    const double cost = cost_of(best);
+    hal::mujoco::AxisParams& axis = current_.table.axis[problem_.axis()];
+    const double lost = 1e-3 * lost_motion(current_, problem_.axis());
+    axis.screw.stiffness = std::clamp(axis.screw.stiffness * factor, kSoftest, kStiffest);
+    const double stretch = 2.0 * axis.friction.coulomb / axis.screw.stiffness;
+    axis.screw.backlash = std::clamp(lost - stretch, 0.0, kMostPlay);
+    polish(15);
+    if (!(cost_of(current_) < cost)) {
+      current_ = best;
+    }
+  }
+}
+
 /// What of a screw that gives a record without the table's position does not show.
 void AxisFitter::note_screw_that_is_not_seen() {
   if (!start_.table.has_giving_screws() || problem_.ever_shows_table()) {
@@ -91,11 +116,27 @@ void AxisFitter::note_screw_that_is_not_seen() {
   }
 }
 
-/// Where scales do not fit, nothing that they say of the screw is certain.
-void AxisFitter::judge_scales() {
-  const double rounding = problem_.scale_rounding_rms();
+/// Whether positions and scales are fitted as well as counts allow.
+bool AxisFitter::is_screw_fitted() const {
+  const double of_scale = problem_.scale_rounding_rms();
+  const bool fits = fit_.rounding_rms > 0.0 && fit_.residual_rms <= kCloseFit * fit_.rounding_rms;
+  const bool scale_fits =
+      !(fit_.scale_rms > 0.0) || (of_scale > 0.0 && fit_.scale_rms <= kCloseFit * of_scale);
+  return fits && scale_fits;
+}
+
+/// What a screw adds is small: where more is left than rounding makes, none of it is certain.
+void AxisFitter::judge_screw() {
   fit_.scale_rms = problem_.scale_rms(current_);
-  if (!(fit_.scale_rms > 0.0) || (rounding > 0.0 && fit_.scale_rms <= kLackOfFit * rounding)) {
+  for (Searched& parameter : searched_) {
+    if (parameter.result.key.ends_with("screw_stiffness_N_per_um") &&
+        parameter.result.value > kStiffShare * parameter.candidate.parameter.max &&
+        parameter.result.verdict == Verdict::kIdentified) {
+      parameter.result.verdict = Verdict::kUncertain;
+      parameter.result.why = "as stiff as the physics step lets a search go, or stiffer";
+    }
+  }
+  if (is_screw_fitted()) {
     return;
   }
   for (Searched& parameter : searched_) {
@@ -103,10 +144,7 @@ void AxisFitter::judge_scales() {
     if (parameter.candidate.when == Candidate::When::kWithTable &&
         result.verdict == Verdict::kIdentified) {
       result.verdict = Verdict::kUncertain;
-      result.why = rounding > 0.0
-                       ? fmt::format("the scale is off by {:.3g} um RMS, rounding makes {:.3g}",
-                                     1e3 * fit_.scale_rms, 1e3 * rounding)
-                       : "the scale is not rounded to counts: how well it fits is not known";
+      result.why = "the fit leaves more than rounding to counts makes";
     }
   }
 }
@@ -203,13 +241,9 @@ void AxisFitter::derive_lost_motion() {
   lost.sigma = lost_motion_deviation(fitted, held);
   lost.relative = lost.sigma / std::max(lost.value, kNaturalLostMotion);
   lost.verdict = Verdict::kIdentified;
-  const double rounding = problem_.scale_rounding_rms();
-  const bool is_unfit =
-      !(fit_.rounding_rms > 0.0) || fit_.residual_rms > kLackOfFit * fit_.rounding_rms ||
-      (fit_.scale_rms > 0.0 && !(rounding > 0.0 && fit_.scale_rms <= kLackOfFit * rounding));
   if (lost.relative > kMostRelative) {
     lost.verdict = Verdict::kUnidentified;
-  } else if (is_unfit) {
+  } else if (!is_screw_fitted()) {
     lost.verdict = Verdict::kUncertain;
   }
   fit_.derived.push_back(std::move(lost));

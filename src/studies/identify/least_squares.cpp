@@ -18,7 +18,6 @@ constexpr double kUnseen = 1e-14;     // share of the largest eigenvalue below w
 
 constexpr double kTiny = 1e-100;
 constexpr int kAllTries = 100;      // of dampings: all there are
-constexpr int kMostReuses = 4;      // of derivatives that are brought up to date
 constexpr double kGoodGain = 1e-4;  // of a step, after which they are used again
 
 using Eigen::Index;
@@ -119,7 +118,7 @@ LeastSquaresFit least_squares(const Residuals& residuals, const VectorXd& start,
       break;
     }
     // Steps by the same derivatives cost one residual each, new derivatives one a parameter.
-    for (int k = 0; k < kMostReuses && gain > kGoodGain; ++k) {
+    for (int k = 0; k < options.reuses && gain > kGoodGain; ++k) {
       gain = improve(residuals, fit, j, damping, 1, options);
     }
   }

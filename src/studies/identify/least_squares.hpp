@@ -13,6 +13,7 @@ struct LeastSquaresOptions {
   int iterations = 30;       ///< largest number of iterations
   double difference = 1e-4;  ///< step of the finite differences, as a share of the unit cube [-]
   double tolerance = 1e-5;   ///< ends when an iteration lowers the cost by less than this share [-]
+  int reuses = 4;            ///< steps by derivatives that are brought up to date, at most
   const std::atomic<bool>* stop = nullptr;  ///< set by the caller to end early; may be null
 };
 
@@ -27,7 +28,8 @@ struct LeastSquaresFit {
 ///
 /// The method is Levenberg-Marquardt: the step d solves (J^T J + mu diag(J^T J)) d = -J^T r, where
 /// mu becomes smaller after a step that lowers the cost and larger after one that does not. Steps
-/// are clamped to the cube. A coordinate that is at a bound and would leave the cube is held for
+/// are clamped to the cube. After a step that gained, J is used again, with what the residual changed
+/// by along the step [Broyden 1965]: that costs one residual in place of one a coordinate. A coordinate that is at a bound and would leave the cube is held for
 /// one iteration.
 LeastSquaresFit least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
                               const LeastSquaresOptions& options = {});

@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr std::size_t kReach = 4;  // of a difference either way: counts make little of it [rows]
+
 /// The first row from which on the nut stands at a flank that is known.
 std::size_t first_row(const AxisRecord& record, double period) {
   const auto& y = record.measured;
@@ -19,6 +21,13 @@ std::size_t first_row(const AxisRecord& record, double period) {
 }
 
 }  // namespace
+
+double measured_velocity(const AxisRecord& record, std::size_t row, double period) {
+  const std::size_t before = row - std::min(row, kReach);
+  const std::size_t after = std::min(row + kReach, record.measured.size() - 1);
+  return (record.measured[after] - record.measured[before]) /
+         (static_cast<double>(std::max<std::size_t>(after - before, 1)) * period);
+}
 
 void drop_slow(Eigen::Ref<Eigen::VectorXd> values, const AxisRecord& record, double period,
                double time_constant, std::size_t first) {
@@ -51,7 +60,7 @@ TableSide::TableSide(const AxisRecord& record, double period, double time_consta
   shares_.resize(rows, 2);
   for (Index k = 0; k < rows; ++k) {
     shares_(k, 0) = record.measured[static_cast<std::size_t>(k)];
-    shares_(k, 1) = record.command[static_cast<std::size_t>(k)].velocity;
+    shares_(k, 1) = measured_velocity(record, static_cast<std::size_t>(k), period);
   }
   for (Index i = 0; i < 2; ++i) {
     drop_slow(shares_.col(i), record, period_, time_constant_, first_);

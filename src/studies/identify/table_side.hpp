@@ -13,6 +13,10 @@ namespace twin::studies::identify {
 void drop_slow(Eigen::Ref<Eigen::VectorXd> values, const AxisRecord& record, double period,
                double time_constant, std::size_t first);
 
+/// Velocity by a central difference of the measured positions over some rows [mm/s]. The set points'
+/// is no measure of it: what the axis lags behind by goes with the acceleration, as stretch does.
+double measured_velocity(const AxisRecord& record, std::size_t row, double period);
+
 /// Residuals of the table's position that the screw answers for.
 ///
 /// A scale on the table differs from the motor's encoder by more than stretch and play of the screw:
