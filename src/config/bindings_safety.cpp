@@ -62,6 +62,8 @@ void add_shadow(std::vector<Binding>& list, ShadowSettings& s) {
                   "to a change that run --shadow finds: told, or a controlled brake as well"});
   list.push_back(
       {section, "false_alarm", "h", &s.hours, 1e-3, 1e9, "mean time between false alarms"});
+  list.push_back({section, "counts", "", &s.reads_counts, 0.0, 0.0,
+                  "counts bound the position, which is finer; false: rounding is noise"});
   list.push_back({section, "scale", "", &s.has_scale, 0.0, 0.0,
                   "the table's position in the trace is measured, by a scale of its own"});
 }

@@ -50,8 +50,9 @@ struct UncertaintySettings {
 
 /// What watches a run, section [shadow].
 struct ShadowSettings {
-  bool stops = false;      ///< a finding brakes on the path and ends the run; else it is only told
-  double hours = 1000.0;   ///< mean time between false alarms [h]
+  bool stops = false;     ///< a finding brakes on the path and ends the run; else it is only told
+  double hours = 1000.0;  ///< mean time between false alarms [h]
+  bool reads_counts = false;  ///< counts bound the position; else rounding is noise
   bool has_scale = false;  ///< the position of the table is measured apart from the motor's encoder
 };
 

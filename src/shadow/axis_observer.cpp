@@ -40,7 +40,10 @@ AxisObserver::AxisObserver(const config::MachineFile& machine, hal::Axis axis, b
   const hal::mujoco::AxisParams& params = machine.table.axis[axis];
   const bool is_torque_mode = params.drive.mode == hal::mujoco::DriveMode::kTorque;
   if (recorded.has_volts && !is_torque_mode) {
-    channels_ = {ChannelKind::kPosition, ChannelKind::kCounts};
+    channels_ = {ChannelKind::kPosition};
+    if (machine.shadow.reads_counts) {
+      channels_.push_back(ChannelKind::kCounts);
+    }
     hum_angle_ = params.drive.hum_amplitude > 0.0
                      ? 2.0 * std::numbers::pi * params.drive.hum_frequency_Hz * machine.period
                      : 0.0;
@@ -111,8 +114,10 @@ Observation AxisObserver::step(const AxisSample& sample) noexcept {
   std::size_t channel = 0;
   if (bank_) {
     seen.row[0] = bank_->step(sample.measured, sample.volts, in_motion_ > kMemory);
-    seen.row[1] = seen.row[0];
-    channel = 2;
+    channel = 1;
+    if (channel < channels_.size() && channels_[channel] == ChannelKind::kCounts) {
+      seen.row[channel++] = seen.row[0];
+    }
   }
   has_hum_for_ += !bank_ || bank_->has_hum() ? 1 : 0;
   if (channel < channels_.size() && channels_[channel] == ChannelKind::kScale) {

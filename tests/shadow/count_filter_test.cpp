@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "shadow_runs.hpp"
+
 namespace twin::shadow {
 namespace count_filter_test {
 
@@ -77,6 +79,30 @@ TEST(CountFilter, ALostCountIsFoundOnceAndOnlyAgainstTheMotion) {
     }
     EXPECT_EQ(lost, direction > 0.0 ? 3.0 : 0.0);
   }
+}
+
+/// Friction of y, whose counts are 11.5 um: rounding as noise needs up to 2.4 s for it.
+TEST(CountedShadow, FrictionIsNamedWithinTwoSecondsWithItsSize) {
+  auto machine = table_machine();
+  machine.shadow.reads_counts = true;
+  std::vector<Track> tracks;
+  for (const char* const program : {"dolphin", "oxalis"}) {
+    tracks.push_back(record(machine, {.program = program, .seed = 11}));
+  }
+  const Baseline learnt = checked(learn(machine, tracks, false));
+  ASSERT_EQ(learnt.axis[hal::kY].front().kind, ChannelKind::kCounts);
+  const Track track =
+      record(machine, {.program = "dolphin", .seed = 31, .changes = {"friction:y=1.3@2"}});
+  Shadow shadow(machine, learnt, false, 1000.0, track.recorded);
+  for (const ShadowSample& sample : track.samples) {
+    shadow.step(sample);
+  }
+  EXPECT_FALSE(shadow.axis(hal::kX)->finding());
+  const auto found = shadow.axis(hal::kY)->finding();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->cause.cause, Cause::kFriction);
+  EXPECT_LT(found->found.time, 1.72 + 2.3);
+  EXPECT_NEAR(shadow.axis(hal::kY)->last_finding()->cause.change, 0.3, 0.06);
 }
 
 }  // namespace count_filter_test

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -29,6 +30,7 @@ T checked(Expected<T> value) {
 inline config::MachineFile table_machine(bool gives = false) {
   config::MachineFile machine =
       checked(config::read_machine_file(TWIN_SOURCE_DIR "/mjcf/xy_table.toml"));
+  machine.shadow.reads_counts = std::getenv("TWIN_SHADOW_COUNTS") != nullptr;
   if (gives) {
     machine.table.model = TWIN_SOURCE_DIR "/mjcf/xy_table_compliant.xml";
   }

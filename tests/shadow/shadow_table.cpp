@@ -1,5 +1,7 @@
 // Prints the tables of docs/shadow.md.
 //
+// TWIN_SHADOW_COUNTS=1: with shadow.counts = true.
+//
 //   shadow_table changes [STARTS] [WORDS]   what is found of each change, for so many begins
 //   shadow_table healthy [RUNS]     healthy runs of ten programs at three feedrates
 //   shadow_table seen               deviation of each parameter after 2 s of motion
