@@ -81,9 +81,14 @@ Expected<batch::Report> run(const std::vector<batch::PreparedJob>& jobs, const b
 
 void print(const batch::Report& report, const batch::Store& store, Verbosity verbosity) {
   if (verbosity == Verbosity::kNormal) {
-    print_out("{} jobs: {} computed in {}, {} were in the store, {} failed\nstore: {}\n",
-              report.jobs, report.computed, time_text(report.time), report.found, report.failed,
-              store.folder().string());
+    print_out(
+        "{} jobs: {} computed in {}, {} were in the store, {} failed\n{}store: {}\n", report.jobs,
+        report.computed, time_text(report.time), report.found, report.failed,
+        report.redone == 0
+            ? ""
+            : fmt::format("broken in the store, or of other subprograms, and computed again: {}\n",
+                          report.redone),
+        store.folder().string());
   }
 }
 

@@ -61,6 +61,14 @@ Expected<CsvReader> CsvReader::open(const std::filesystem::path& file) {
     reader.line_ = 1;
     return reader.complaint("a header line with the names of the columns is missing");
   }
+  const auto no_text = std::ranges::find_if(
+      line, [](char c) { return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\r'; });
+  if (no_text != line.end()) {
+    reader.line_ = 1;
+    return reader.complaint(fmt::format(
+        "byte 0x{:02X} is no text; expected a header line with the names of the columns",
+        static_cast<unsigned char>(*no_text)));
+  }
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
     reader.header_.emplace_back(trimmed(line.substr(begin, end - begin)));

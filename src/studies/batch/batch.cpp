@@ -66,6 +66,7 @@ class Work {
  private:
   struct Outcome {
     bool was_found = false;
+    bool was_broken = false;
     StoredResult result;
     std::optional<Error> host_error;  // why there is no result, though the store is well
   };
@@ -74,17 +75,20 @@ class Work {
   bool is_over() const { return is_stopped() || is_broken_; }
 
   Expected<Outcome> do_job(const PreparedJob& job) const {
+    const bool has_entry = store_.has_entry(job);
     if (const auto stored = store_.find(job)) {
-      return Outcome{true, *stored, {}};
+      return Outcome{true, false, *stored, {}};
     }
     TWIN_TRY(const std::filesystem::path folder, store_.begin(job));
     Expected<StoredResult> result = guarded(job, folder);
     if (!result && is_of_host(result.error())) {
       remove(folder);
-      return Outcome{false, {}, std::move(result).error()};
+      return Outcome{false, false, {}, std::move(result).error()};
     }
     const auto kept = result.and_then([&](const StoredResult& computed) {
-      return store_.commit(job, folder, computed).map([&] { return Outcome{false, computed, {}}; });
+      return store_.commit(job, folder, computed).map([&] {
+        return Outcome{false, has_entry, computed, {}};
+      });
     });
     if (!kept) {
       remove(folder);
@@ -120,6 +124,7 @@ class Work {
       return;
     }
     ++(outcome->was_found ? report_.found : report_.computed);
+    report_.redone += outcome->was_broken ? 1 : 0;
     report_.failed += outcome->result.failure.empty() ? 0 : 1;
     if (options_.result) {
       options_.result(job, outcome->result);

@@ -33,6 +33,7 @@ struct Report {
   std::size_t jobs = 0;      ///< of this shard
   std::size_t computed = 0;  ///< by this batch
   std::size_t found = 0;     ///< in the store before
+  std::size_t redone = 0;    ///< of those computed, whose result in the store was broken
   std::size_t failed = 0;    ///< of both, whose run failed; kept with the reason
   double time = 0.0;         ///< wall-clock time [s]
 };

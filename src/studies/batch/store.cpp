@@ -126,6 +126,11 @@ fs::path Store::folder_of(const PreparedJob& job) const {
   return folder_ / job.key.substr(0, kPrefix) / job.key;
 }
 
+bool Store::has_entry(const PreparedJob& job) const {
+  std::error_code ignored;
+  return fs::exists(folder_of(job), ignored);
+}
+
 std::optional<StoredResult> Store::find(const PreparedJob& job) const {
   const fs::path folder = folder_of(job);
   const auto text = read_whole_file(folder / "job.json");

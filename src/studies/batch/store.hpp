@@ -38,6 +38,9 @@ class Store {
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
 
+  /// Whether something is there in the place of a job's result, broken or not.
+  bool has_entry(const PreparedJob& job) const;
+
   /// The result of a job; nothing if there is none, or one that is removed: a broken one, whose
   /// files are not those that job.json has the checksums of, or one of other files of subprograms.
   std::optional<StoredResult> find(const PreparedJob& job) const;

@@ -95,7 +95,9 @@ TEST_F(BatchTest, ABrokenResultIsComputedAgain) {
   const auto file = kept.folder_of(some[0]) / "summary.json";
   const std::string whole = test::content(file);
   std::ofstream(file) << whole.substr(0, 40);
-  EXPECT_EQ(run_batch(some, kept, {})->computed, 1U);
+  const auto report = run_batch(some, kept, {});
+  EXPECT_EQ(report->computed, 1U);
+  EXPECT_EQ(report->redone, 1U);
   EXPECT_EQ(test::content(file), whole);
 }
 
