@@ -8,8 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/bounded_queue.hpp"
 #include "hal/mujoco/mujoco_library.hpp"
-#include "pictures/video/bounded_queue.hpp"
 #include "pictures/video/film.hpp"
 #include "pictures/video/video_encoder.hpp"
 

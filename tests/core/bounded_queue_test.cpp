@@ -1,10 +1,10 @@
-#include "pictures/video/bounded_queue.hpp"
+#include "core/bounded_queue.hpp"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-namespace twin::pictures::video {
+namespace twin {
 namespace bounded_queue_test {
 
 TEST(BoundedQueue, ItemsArriveOnceAndInOrder) {
@@ -41,4 +41,4 @@ TEST(BoundedQueue, ClosingFreesAWaitingProducer) {
 }
 
 }  // namespace bounded_queue_test
-}  // namespace twin::pictures::video
+}  // namespace twin

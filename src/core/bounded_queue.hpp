@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace twin::pictures::video {
+namespace twin {
 
 /// A queue between two threads in which the faster one waits.
 template <class T>
@@ -55,4 +55,4 @@ class BoundedQueue {
   bool is_closed_ = false;
 };
 
-}  // namespace twin::pictures::video
+}  // namespace twin
