@@ -289,6 +289,9 @@ Expected<void> Search::find_stretches(const Trial& whole, double feedrate, Faste
       feed = feedrate * std::pow(feed / feedrate, share);
     }
     TWIN_TRY(last, tried_schedule(blocks, between, found));
+    if (!last) {
+      break;
+    }
     (keeps(*last) ? low : high) = share;
   }
   if (schedule_trial_) {
