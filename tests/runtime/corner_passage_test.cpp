@@ -88,6 +88,17 @@ void expect_kept(const test::OverrideRun& run, const std::vector<Vec3>& polygon,
   }
 }
 
+/// Holds, each followed by some override.
+Schedule any_schedule(std::mt19937& random, int changes) {
+  Schedule schedule;
+  double t = 0.0;
+  for (int k = 0; k < changes; ++k) {
+    t += any(random, 0.01, 0.35);
+    schedule.push_back({t, k % 2 == 0 ? 0.0 : any(random, 20.0, 130.0)});
+  }
+  return schedule;
+}
+
 TEST(CornerPassage, SetPointsKeepVectorJerkOnRandomPolygons) {
   std::mt19937 random(1);
   for (int i = 0; i < 12; ++i) {
@@ -124,12 +135,7 @@ TEST(CornerPassage, HoldsAndOverridesKeepTheJerkOfEachAxis) {
   for (int i = 0; i < 16; ++i) {
     const double shortest = i % 2 == 0 ? 3.0 : 8.0;
     const auto points = any_polygon(random, 10, shortest, 4.0 * shortest);
-    Schedule schedule;
-    double t = 0.0;
-    for (int k = 0; k < 6 && i % 4 != 0; ++k) {
-      t += any(random, 0.01, 0.35);
-      schedule.push_back({t, k % 2 == 0 ? 0.0 : any(random, 20.0, 130.0)});
-    }
+    const Schedule schedule = any_schedule(random, i % 4 == 0 ? 0 : 6);
     const auto run = test::run_with_overrides(program_of(points, random), of_axes, schedule);
     ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, of_axes)) << i;
   }
@@ -165,12 +171,7 @@ TEST(CornerPassage, UnderTheJerkOfThePathHoldsAndOverridesKeepItAndThatOfEachAxi
                        any(random, 4.0, 16.0) * Vec3(std::cos(heading), std::sin(heading), 0.0));
       heading += any(random, 0.08, 0.6) * (random() % 2 == 0 ? 1.0 : -1.0);
     }
-    Schedule schedule;
-    double t = 0.0;
-    for (int k = 0; k < 6 && i % 4 != 0; ++k) {
-      t += any(random, 0.01, 0.35);
-      schedule.push_back({t, k % 2 == 0 ? 0.0 : any(random, 20.0, 130.0)});
-    }
+    const Schedule schedule = any_schedule(random, i % 4 == 0 ? 0 : 6);
     const auto run = test::run_with_overrides(program_of(points, random), of_path, schedule);
     ASSERT_NO_FATAL_FAILURE(expect_kept(run, points, judge)) << i;
     ASSERT_LE(path_jerk_of(run, of_path.period), 1.03 * of_path.limits.jerk) << i;

@@ -142,41 +142,48 @@ unsigned machines() {
   return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : 2;
 }
 
-TEST(ScrewIdentification, AScaleBesideTheEncoderShowsStiffnessPlayAndLostMotion) {
+/// How many parameters were called identified, and how many of these lie within two deviations.
+struct Tally {
   int identified = 0;
   int within = 0;
+
+  void add(const Found& one, unsigned seed) {
+    identified += one.is_identified() ? 1 : 0;
+    within += one.is_identified() && one.is_within() ? 1 : 0;
+    EXPECT_TRUE(!one.is_identified() || one.is_within() || machines() > 2) << seed;
+  }
+  void judge() const {
+    std::printf("%d of %d within 2 deviations\n", within, identified);
+    EXPECT_GE(identified, static_cast<int>(machines()));
+    EXPECT_GE(within, std::lround(0.95 * identified) - 1);
+  }
+};
+
+TEST(ScrewIdentification, AScaleBesideTheEncoderShowsStiffnessPlayAndLostMotion) {
+  Tally tally;
   for (unsigned seed = 1; seed <= machines(); ++seed) {
     const config::MachineFile hidden = hidden_screw(seed);
     // The lead is not exact, and the scale is read 0.2 ms late.
     const Scale scale{.count = 1e-3, .ratio = 1.00005, .late = 0.2e-3};
     for (const Found& one :
          identify_screw({record(hidden, EncoderPlace::kMotor, &scale)}, hidden)) {
-      identified += one.is_identified() ? 1 : 0;
-      within += one.is_identified() && one.is_within() ? 1 : 0;
-      EXPECT_TRUE(!one.is_identified() || one.is_within() || machines() > 2) << seed;
+      tally.add(one, seed);
     }
   }
-  std::printf("%d of %d within 2 deviations\n", within, identified);
-  EXPECT_GE(identified, static_cast<int>(machines()));
-  EXPECT_GE(within, std::lround(0.95 * identified) - 1);
+  tally.judge();
 }
 
 TEST(ScrewIdentification, TwoRecordingsWithTheEncoderAtTheMotorAndAtTheTableShowThem) {
-  int identified = 0;
-  int within = 0;
+  Tally tally;
   for (unsigned seed = 1; seed <= machines(); ++seed) {
     const config::MachineFile hidden = hidden_screw(seed + 50);
     for (const Found& one : identify_screw(
              {record(hidden, EncoderPlace::kTable), record(hidden, EncoderPlace::kMotor)},
              hidden)) {
-      identified += one.is_identified() ? 1 : 0;
-      within += one.is_identified() && one.is_within() ? 1 : 0;
-      EXPECT_TRUE(!one.is_identified() || one.is_within() || machines() > 2) << seed;
+      tally.add(one, seed);
     }
   }
-  std::printf("%d of %d within 2 deviations\n", within, identified);
-  EXPECT_GE(identified, static_cast<int>(machines()));
-  EXPECT_GE(within, std::lround(0.95 * identified) - 1);
+  tally.judge();
 }
 
 TEST(ScrewIdentification, ARecordingWithTheEncoderAtTheTableShowsPlayAlone) {
